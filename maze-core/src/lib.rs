@@ -1,2 +1,69 @@
 //! The physics and the maze of a tilt-the-maze ball game.
+//!
+//! # Conventions
+//!
+//! - **Maze frame**: right-handed; the board lies in x-y, its centre is the origin, the floor is z = 0 and +z points out
+//!   of the board towards the player. Walls rise along +z.
+//! - **World frame**: +z is up, so gravity is (0, 0, -9.81). An orientation `world_from_maze` turns maze coordinates into
+//!   world coordinates.
+//! - **Units**: the commonest corridor is 1 maze unit wide; seconds; hence g = 9.81 units/s².
+//! - **Ball**: a circle in the maze plane, held on the floor. That z is trivial is the method's central relaxation.
+//! - **Ranges**: everything is `f64` and must be finite. Boards up to 10⁴ units across and speeds up to 10⁴ units/s keep
+//!   rounding below 1e-11 units.
+//!
+//! # Invariants
+//!
+//! No GPU, window, clock, thread, file or `unsafe`. The physics uses + - * / and sqrt only, so that the same inputs give
+//! the same bits in debug, in release and in a browser; `clippy.toml` beside this crate's manifest enforces it.
+//!
+//! # One tick
+//!
+//! ```
+//! use std::sync::Arc;
+//! use maze_core::{Ball, BallSpec, Engine, Facing, Plane, Published, SortedPlanes, Tilt, gravity};
+//! use nalgebra::Vector2;
+//!
+//! let wall = Plane { facing: Facing::MinusX, offset: 5.0, start: -1.0, end: 1.0 };
+//! let planes = Arc::new(SortedPlanes::new([wall])?);
+//! let ball = Ball { position: Vector2::zeros(), velocity: Vector2::zeros() };
+//! let mut engine = Published::new(planes, BallSpec::default(), ball)?;
+//!
+//! let tilt = Tilt::from_half_tangents(0.1, 0.0); // the board's +x side is down
+//! let acceleration = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
+//! engine.tick(acceleration)?;
+//! assert!(0.0 < engine.ball().velocity.x);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![forbid(unsafe_code)]
+
+mod assemble;
+mod ball;
+pub mod contact;
+pub mod engine;
+pub mod export;
+pub mod extrude;
+mod frame;
+pub mod gravity;
+pub mod import;
+pub mod layout;
+mod maze;
+mod plane;
+mod polygons;
+mod reach;
+mod rules;
+mod section;
+mod slice;
+mod sorted_planes;
 pub mod surface;
+
+pub use assemble::{AssembleError, AssembleOptions};
+pub use ball::{Ball, BallSpec, NonFinite, Radius};
+pub use engine::{Engine, Published, Tick};
+pub use gravity::Tilt;
+pub use layout::Layout;
+pub use maze::{Bounds, Ignored, Maze};
+pub use plane::{Facing, Plane, PlaneError};
+pub use polygons::{PolygonMesh, UpAxis};
+pub use rules::{Event, Phase, Run};
+pub use section::SectionError;
+pub use sorted_planes::SortedPlanes;

@@ -1,0 +1,81 @@
+//! The ball: where it is, how it moves, what it is made of.
+
+use nalgebra::Vector2;
+
+/// A number from outside was NaN or infinite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} is not finite")]
+pub struct NonFinite {
+    /// What the number meant.
+    pub what: &'static str,
+}
+
+/// A ball radius (maze units): finite and greater than zero.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Radius(f64);
+
+impl Radius {
+    /// `None` unless `units` is finite and greater than zero.
+    pub fn new(units: f64) -> Option<Self> {
+        (units.is_finite() && 0.0 < units).then_some(Self(units))
+    }
+
+    /// In maze units.
+    pub const fn units(self) -> f64 {
+        self.0
+    }
+}
+
+/// Position (units) and velocity (units/s) of the ball's centre in the maze plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ball {
+    /// Maze units.
+    pub position: Vector2<f64>,
+    /// Maze units per second.
+    pub velocity: Vector2<f64>,
+}
+
+impl Ball {
+    /// At rest.
+    pub fn at(position: Vector2<f64>) -> Self {
+        Self { position, velocity: Vector2::zeros() }
+    }
+
+    /// The ball itself, or which part of it is not finite.
+    pub fn checked(self) -> Result<Self, NonFinite> {
+        let finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
+        match (finite(self.position), finite(self.velocity)) {
+            (true, true) => Ok(self),
+            (false, _) => Err(NonFinite { what: "the ball's position" }),
+            (true, false) => Err(NonFinite { what: "the ball's velocity" }),
+        }
+    }
+}
+
+/// What the ball is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallSpec {
+    /// Of the circle in the maze plane.
+    pub radius: Radius,
+    /// Part of the normal speed that a bounce keeps, 0..=1.
+    pub restitution: f64,
+    /// Part of the projected gravity that accelerates the centre: [`BallSpec::POINT_MASS`] or [`BallSpec::ROLLING_SPHERE`].
+    pub rolling: f64,
+}
+
+impl BallSpec {
+    /// The report's ball: a point mass that slides without friction.
+    pub const POINT_MASS: f64 = 1.0;
+    /// A solid sphere that rolls without slipping: 1 / (1 + 2/5), from I = 2/5 m r².
+    pub const ROLLING_SPHERE: f64 = 5.0 / 7.0;
+    /// The report's restitution.
+    pub const RESTITUTION: f64 = 0.8;
+    /// The usual radius: large enough to be seen, and corridors stay wide enough to bounce in.
+    pub const RADIUS: Radius = Radius(0.35);
+}
+
+impl Default for BallSpec {
+    fn default() -> Self {
+        Self { radius: Self::RADIUS, restitution: Self::RESTITUTION, rolling: Self::POINT_MASS }
+    }
+}

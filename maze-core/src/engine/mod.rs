@@ -1,0 +1,49 @@
+//! Engines: what moves the ball through one tick.
+
+pub mod published;
+
+pub use published::Published;
+
+use crate::ball::{Ball, BallSpec, NonFinite};
+use nalgebra::Vector2;
+
+/// What happened within one tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tick {
+    /// Steps that the tick was walked in; 1 when the ball was slow.
+    pub n_steps: u32,
+    /// Contacts that changed the velocity.
+    pub n_hits: u32,
+    /// Largest normal speed of a hit (units/s): how loud it was.
+    pub hardest_hit: f64,
+    /// Deepest penetration met before push-out (units).
+    pub deepest_penetration: f64,
+    /// Time that was not simulated because a bound was reached (s).
+    pub dropped_s: f64,
+}
+
+/// A way to compute the ball's motion.
+///
+/// The same inputs give the same bits on every platform.
+pub trait Engine {
+    /// Advances by one tick under a constant acceleration in the maze plane (units/s²).
+    ///
+    /// # Errors
+    /// An acceleration that is not finite; the ball stays as it was.
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, NonFinite>;
+
+    /// Where the ball is now.
+    fn ball(&self) -> Ball;
+
+    /// Puts the ball somewhere else.
+    ///
+    /// # Errors
+    /// A position or velocity that is not finite; the ball stays as it was.
+    fn place(&mut self, ball: Ball) -> Result<(), NonFinite>;
+
+    /// What the ball is made of.
+    fn spec(&self) -> &BallSpec;
+
+    /// Length of a tick (s).
+    fn tick_s(&self) -> f64;
+}

@@ -1,0 +1,3 @@
+//! Bytes -> polygons. Nothing in the physics knows of this.
+
+pub mod obj;

@@ -1,0 +1,77 @@
+//! Grid mazes: cells, and which of them are joined.
+
+mod generate;
+
+pub use generate::recursive_backtracker;
+
+/// Most cells of a layout: 4096 x 4096.
+const MAX_CELLS: usize = 1 << 24;
+
+/// A rectangle of cells; each pair of neighbours is joined by a passage or parted by a wall.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    width: usize,
+    height: usize,
+    east: Vec<bool>,  // [y * width + x]: a passage to the cell on the right
+    north: Vec<bool>, // [y * width + x]: a passage to the cell above
+}
+
+/// A size that no layout has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a maze of {width}x{height} cells: expected at least 2 cells and at most {max}", max = MAX_CELLS)]
+pub struct LayoutSizeError {
+    /// Cells along x.
+    pub width: usize,
+    /// Cells along y.
+    pub height: usize,
+}
+
+impl Layout {
+    /// All cells walled in.
+    ///
+    /// # Errors
+    /// Fewer than two cells (there is no way to go) or more than 4096 x 4096.
+    pub fn walled(width: usize, height: usize) -> Result<Self, LayoutSizeError> {
+        match width.checked_mul(height) {
+            Some(n_cells @ 2..=MAX_CELLS) => {
+                Ok(Self { width, height, east: vec![false; n_cells], north: vec![false; n_cells] })
+            }
+            _ => Err(LayoutSizeError { width, height }),
+        }
+    }
+
+    /// Cells along x.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Cells along y.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Whether a passage leads from cell (x, y) to the one on its right; false at the border.
+    pub fn is_open_east(&self, x: usize, y: usize) -> bool {
+        x + 1 < self.width && self.east[y * self.width + x]
+    }
+
+    /// Whether a passage leads from cell (x, y) to the one above it; false at the border.
+    pub fn is_open_north(&self, x: usize, y: usize) -> bool {
+        y + 1 < self.height && self.north[y * self.width + x]
+    }
+
+    /// Number of passages.
+    pub fn n_passages(&self) -> usize {
+        self.east.iter().chain(&self.north).filter(|open| **open).count()
+    }
+
+    /// Joins two neighbours, given as indices `y * width + x`.
+    fn join(&mut self, a: usize, b: usize) {
+        let low = if a < b { a } else { b };
+        if a.abs_diff(b) == 1 && self.width != 1 {
+            self.east[low] = true;
+        } else {
+            self.north[low] = true;
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! A maze: everything an engine or a renderer needs.
+
+use crate::ball::Radius;
+use crate::plane::Plane;
+use crate::polygons::UpAxis;
+use crate::sorted_planes::SortedPlanes;
+use crate::surface::SurfaceMesh;
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// An axis-aligned rectangle in the maze plane (units).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub low: Vector2<f64>,
+    /// Upper right corner.
+    pub high: Vector2<f64>,
+}
+
+impl Bounds {
+    /// Width and depth.
+    pub fn size(&self) -> Vector2<f64> {
+        self.high - self.low
+    }
+}
+
+/// Faces of a file that the maze does not use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ignored {
+    /// Why, in words.
+    pub reason: &'static str,
+    /// How many.
+    pub n_faces: usize,
+    /// Their part of the area of all faces, 0..=1.
+    pub area_part: f64,
+}
+
+/// A maze in maze units, its centre at the origin and its floor at z = 0.
+#[derive(Clone, Debug)]
+pub struct Maze {
+    /// Wall faces, the frame around the board included.
+    pub planes: Arc<SortedPlanes>,
+    /// Where the outer wall is open: the parts of the frame that close it.
+    pub openings: Vec<Plane>,
+    /// Triangles to draw.
+    pub surface: SurfaceMesh,
+    /// Of the walls.
+    pub bounds: Bounds,
+    /// From the floor to the top of the walls (units).
+    pub wall_height: f64,
+    /// The ball this maze is played with.
+    pub ball_radius: Radius,
+    /// Where the ball's centre starts.
+    pub start: Vector2<f64>,
+    /// Where it has to get.
+    pub goal: Vector2<f64>,
+    /// How near the centre must come to `goal`.
+    pub goal_radius: f64,
+    /// Whether a way leads from start to goal.
+    pub solvable: bool,
+    /// Which axis of the file points out of the board.
+    pub up_axis: UpAxis,
+    /// Maze units in a unit of the file.
+    pub scale: f64,
+    /// Whether the file has a floor; else one was laid.
+    pub has_floor: bool,
+    /// Faces that were not used, and why.
+    pub ignored: Vec<Ignored>,
+    /// Part of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
+    pub doubtful_part: f64,
+}

@@ -1,0 +1,118 @@
+//! One wall face as an axis-aligned plane.
+
+use nalgebra::Vector2;
+
+/// The direction in which a face looks, out of its wall. The report colours them red, green, cyan and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Facing {
+    /// Red: stops a ball that moves towards -x.
+    PlusX,
+    /// Green: stops a ball that moves towards +x.
+    MinusX,
+    /// Cyan: stops a ball that moves towards -y.
+    PlusY,
+    /// Blue: stops a ball that moves towards +y.
+    MinusY,
+}
+
+impl Facing {
+    /// All four, in the order of the report.
+    pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
+
+    /// As on the command line: `+x`, `-x`, `+y`, `-y`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PlusX => "+x",
+            Self::MinusX => "-x",
+            Self::PlusY => "+y",
+            Self::MinusY => "-y",
+        }
+    }
+
+    /// The coordinate along the normal: 0 for x, 1 for y. The face extends along the other one.
+    pub const fn axis(self) -> usize {
+        match self {
+            Self::PlusX | Self::MinusX => 0,
+            Self::PlusY | Self::MinusY => 1,
+        }
+    }
+
+    /// +1 or -1: the normal's component along [`Facing::axis`].
+    pub const fn sign(self) -> f64 {
+        match self {
+            Self::PlusX | Self::PlusY => 1.0,
+            Self::MinusX | Self::MinusY => -1.0,
+        }
+    }
+
+    /// Unit normal, out of the wall.
+    pub fn normal(self) -> Vector2<f64> {
+        let mut normal = Vector2::zeros();
+        normal[self.axis()] = self.sign();
+        normal
+    }
+
+    /// The one or two facings that a ball of this velocity can run into: at least half of all planes are never looked at.
+    pub fn opposing(velocity: Vector2<f64>) -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(move |facing| velocity[facing.axis()] * facing.sign() < 0.0)
+    }
+}
+
+/// A wall face: the points with `offset` along the normal's axis and `start..=end` along the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Where it looks.
+    pub facing: Facing,
+    /// Coordinate along the normal's axis (maze units).
+    pub offset: f64,
+    /// Lower end along the other axis; less than `end`.
+    pub start: f64,
+    /// Upper end along the other axis.
+    pub end: f64,
+}
+
+/// Why a plane cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum PlaneError {
+    /// A coordinate is NaN or infinite.
+    #[error("plane {index} ({facing}): a coordinate is not finite", facing = .plane.facing.name())]
+    NonFinite {
+        /// Which one, counted from 0 in the input.
+        index: usize,
+        /// As given.
+        plane: Plane,
+    },
+    /// It has no extent.
+    #[error("plane {index} ({facing}) starts at {start} and ends at {end}: expected start < end",
+        facing = .plane.facing.name(), start = .plane.start, end = .plane.end)]
+    Empty {
+        /// Which one, counted from 0 in the input.
+        index: usize,
+        /// As given.
+        plane: Plane,
+    },
+}
+
+impl Plane {
+    /// Checks what [`crate::SortedPlanes`] relies on; `index` names the plane in the error.
+    pub(crate) fn checked(self, index: usize) -> Result<Self, PlaneError> {
+        if ![self.offset, self.start, self.end].iter().all(|value| value.is_finite()) {
+            return Err(PlaneError::NonFinite { index, plane: self });
+        }
+        if self.start < self.end { Ok(self) } else { Err(PlaneError::Empty { index, plane: self }) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_faces_that_oppose_the_velocity_are_looked_at() {
+        let names = |x, y| Facing::opposing(Vector2::new(x, y)).map(Facing::name).collect::<Vec<_>>();
+        assert_eq!(names(-1.0, 0.0), ["+x"]);
+        assert_eq!(names(1.0, 2.0), ["-x", "-y"]);
+        assert_eq!(names(0.5, -2.0), ["-x", "+y"]);
+        assert!(names(0.0, 0.0).is_empty());
+    }
+}

@@ -1,0 +1,199 @@
+//! Where the ball's centre can be: the ground plan grown by the ball's radius, and the ways through it.
+//!
+//! Walls are grown by a square and not by a disc, so a gap that the ball could only take diagonally counts as closed.
+
+use crate::section::Section;
+use nalgebra::Vector2;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Rectangles of possible centres between all wall coordinates ± the radius.
+pub(crate) struct Reach {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    free: Vec<bool>, // row by row
+}
+
+/// Length of the way to every cell (units, from centre to centre); infinite where there is none.
+pub(crate) struct Distances(Vec<f64>);
+
+/// Widest cell (units): half a corridor, so that the ends of a bare corridor are cells of their own ...
+const MAX_CELL: f64 = 0.5;
+/// ... unless the board is so wide that it would take more pieces than this.
+const MAX_PIECES: f64 = 4096.0;
+
+/// The coordinates with wide gaps split evenly.
+fn split(coordinates: &[f64]) -> Vec<f64> {
+    let extent = coordinates[coordinates.len() - 1] - coordinates[0];
+    let widest = if MAX_CELL * MAX_PIECES < extent { extent / MAX_PIECES } else { MAX_CELL };
+    let mut pieces = Vec::with_capacity(coordinates.len());
+    for pair in coordinates.windows(2) {
+        let mut n_pieces = 1.0;
+        while widest * n_pieces < pair[1] - pair[0] {
+            n_pieces += 1.0;
+        }
+        let mut piece = 0.0;
+        while piece < n_pieces {
+            pieces.push(pair[0] + (pair[1] - pair[0]) * (piece / n_pieces));
+            piece += 1.0;
+        }
+    }
+    pieces.extend(coordinates.last());
+    pieces
+}
+
+impl Reach {
+    pub(crate) fn new(section: &Section, radius: f64) -> Self {
+        let grown = |values: &[f64]| {
+            let mut grown: Vec<f64> =
+                values.iter().flat_map(|value| [value - radius, value + radius]).collect();
+            grown.sort_by(f64::total_cmp);
+            grown.dedup();
+            // The outermost ones lie outside the board.
+            split(&grown[1..grown.len() - 1])
+        };
+        let (xs, ys) = (grown(&section.xs), grown(&section.ys));
+        let n_solid = SolidCounts::new(section);
+        // The plan's cells that a square of that radius around the middle of [low, high] overlaps.
+        let covered = |coordinates: &[f64], low: f64, high: f64| {
+            let middle = (low + high) / 2.0;
+            let first = coordinates.partition_point(|value| *value <= middle - radius);
+            let last = coordinates.partition_point(|value| *value < middle + radius);
+            (first > 0 && last < coordinates.len()).then(|| (first - 1, last))
+        };
+        let columns: Vec<_> = xs.windows(2).map(|pair| covered(&section.xs, pair[0], pair[1])).collect();
+        let rows: Vec<_> = ys.windows(2).map(|pair| covered(&section.ys, pair[0], pair[1])).collect();
+        let mut free = Vec::with_capacity(rows.len() * columns.len());
+        for row in rows {
+            free.extend(columns.iter().map(|column| match (*column, row) {
+                (Some(column), Some(row)) => n_solid.within(column, row) == 0,
+                _ => false,
+            }));
+        }
+        Self { xs, ys, free }
+    }
+
+    fn n_x(&self) -> usize {
+        self.xs.len() - 1
+    }
+
+    /// The middle of a cell.
+    pub(crate) fn middle(&self, cell: usize) -> Vector2<f64> {
+        let (i, j) = (cell % self.n_x(), cell / self.n_x());
+        Vector2::new((self.xs[i] + self.xs[i + 1]) / 2.0, (self.ys[j] + self.ys[j + 1]) / 2.0)
+    }
+
+    /// The free cell that holds a point, border included.
+    pub(crate) fn cell_at(&self, point: Vector2<f64>) -> Option<usize> {
+        // A point on a border belongs to both sides: take the free one.
+        let sides = |values: &[f64], value: f64| {
+            let above = values.partition_point(|known| *known < value);
+            [above.checked_sub(1), (values.get(above) == Some(&value)).then_some(above)]
+        };
+        let in_x = sides(&self.xs, point.x).into_iter().flatten().filter(|i| *i < self.n_x());
+        in_x.flat_map(|i| {
+            let in_y = sides(&self.ys, point.y).into_iter().flatten().filter(|j| *j + 1 < self.ys.len());
+            in_y.map(move |j| (i, j))
+        })
+        .map(|(i, j)| j * self.n_x() + i)
+        .find(|cell| self.free[*cell])
+    }
+
+    /// The free cells beside a cell.
+    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let n_x = self.n_x();
+        let (i, j) = (cell % n_x, cell / n_x);
+        let neighbours = [
+            (0 < i).then(|| cell - 1),
+            (i + 1 < n_x).then(|| cell + 1),
+            (0 < j).then(|| cell - n_x),
+            (j + 2 < self.ys.len()).then(|| cell + n_x),
+        ];
+        neighbours.into_iter().flatten().filter(|next| self.free[*next])
+    }
+
+    /// A cell of the connected region with the most cells; `None` when nothing is free.
+    pub(crate) fn largest_region(&self) -> Option<usize> {
+        let mut unseen = self.free.clone();
+        let mut largest: Option<(usize, usize)> = None; // (cells, one of them)
+        for first in 0..unseen.len() {
+            if !unseen[first] {
+                continue;
+            }
+            unseen[first] = false;
+            let (mut n_cells, mut open) = (0, vec![first]);
+            while let Some(cell) = open.pop() {
+                n_cells += 1;
+                for next in self.neighbours(cell) {
+                    if std::mem::take(&mut unseen[next]) {
+                        open.push(next);
+                    }
+                }
+            }
+            if largest.is_none_or(|(known, _)| known < n_cells) {
+                largest = Some((n_cells, first));
+            }
+        }
+        largest.map(|(_, cell)| cell)
+    }
+
+    /// Shortest ways from one free cell to all others (Dijkstra, between the cells' middles).
+    pub(crate) fn distances_from(&self, start: usize) -> Distances {
+        let mut distances = vec![f64::INFINITY; self.free.len()];
+        distances[start] = 0.0;
+        // Bits of non-negative floats order as the floats do.
+        let mut queue = BinaryHeap::from([Reverse((0.0_f64.to_bits(), start))]);
+        while let Some(Reverse((bits, cell))) = queue.pop() {
+            if bits != distances[cell].to_bits() {
+                continue; // reached earlier by a shorter way
+            }
+            for next in self.neighbours(cell) {
+                let distance = distances[cell] + (self.middle(next) - self.middle(cell)).norm();
+                if distance < distances[next] {
+                    distances[next] = distance;
+                    queue.push(Reverse((distance.to_bits(), next)));
+                }
+            }
+        }
+        Distances(distances)
+    }
+}
+
+impl Distances {
+    /// Length of the way to this cell; infinite when there is none.
+    pub(crate) fn to(&self, cell: usize) -> f64 {
+        self.0[cell]
+    }
+
+    /// The farthest cell that has a way, the first one on a tie.
+    pub(crate) fn farthest(&self) -> usize {
+        let reached = self.0.iter().enumerate().filter(|(_, distance)| distance.is_finite());
+        reached.rev().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(cell, _)| cell)
+    }
+}
+
+/// Prefix sums: how many solid cells lie in a rectangle of the plan, in O(1).
+struct SolidCounts {
+    sums: Vec<u32>,
+    n_x: usize,
+}
+
+impl SolidCounts {
+    fn new(section: &Section) -> Self {
+        let [n_x, n_y] = section.n_cells();
+        let mut sums = vec![0; (n_x + 1) * (n_y + 1)];
+        for j in 0..n_y {
+            let mut in_row = 0;
+            for i in 0..n_x {
+                in_row += u32::from(section.is_solid(i, j));
+                sums[(j + 1) * (n_x + 1) + i + 1] = sums[j * (n_x + 1) + i + 1] + in_row;
+            }
+        }
+        Self { sums, n_x }
+    }
+
+    fn within(&self, (left, right): (usize, usize), (low, high): (usize, usize)) -> u32 {
+        let at = |i: usize, j: usize| self.sums[j * (self.n_x + 1) + i];
+        at(right, high) + at(left, low) - at(left, high) - at(right, low)
+    }
+}

@@ -1,0 +1,454 @@
+//! The maze's ground plan: which rectangles between the wall coordinates are solid and which are free.
+//!
+//! Raw wall faces come in pieces, doubled, and hidden where two walls meet. The plan is their sum: walking along x, each
+//! face that looks towards -x enters a wall and each that looks towards +x leaves one (the winding number), so whatever
+//! lies inside any wall is solid, and what remains between solid and free is exactly the faces that a ball can touch.
+//! The walk is made from all four sides; where a file lacks a face they disagree, and three of four decide.
+
+use crate::plane::{Facing, Plane};
+
+/// Coordinates nearer than this part of the plan's size are one coordinate: between the rounding of a file with six
+/// decimals (1e-6) and the thinnest wall of a maze of a thousand corridors (1e-4).
+const MERGE_PART: f64 = 1.0e-5;
+
+/// Most rectangles of a plan: 8192 x 8192, a maze of 4000 x 4000 cells. Above it a file is not worth its memory.
+const MAX_CELLS: usize = 1 << 26;
+
+/// Percent of the plan that may look solid from two sides and free from the other two before the walls count as open.
+/// A careless modeller's forgotten face stays below it; sheets without thickness do not.
+const MAX_TIED_PERCENT: f64 = 1.0;
+
+/// Why wall faces make no ground plan.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SectionError {
+    /// The walls do not close.
+    #[error(
+        "the walls are not closed: {percent:.1} % of the plan looks solid from two sides and free from the other two, \
+         first near ({x}, {y}) across the up axis; expected walls with two sides and closed ends"
+    )]
+    Open {
+        /// Share of the plan's area.
+        percent: f64,
+        /// File units, up axis turned to z.
+        x: f64,
+        /// File units, up axis turned to z.
+        y: f64,
+    },
+    /// More wall coordinates than a maze has.
+    #[error("{n_x} x {n_y} distinct wall coordinates: expected at most {max} rectangles", max = MAX_CELLS)]
+    TooFine {
+        /// Along x.
+        n_x: usize,
+        /// Along y.
+        n_y: usize,
+    },
+}
+
+/// The ground plan. Cell (i, j) is `xs[i]..xs[i + 1]` by `ys[j]..ys[j + 1]`.
+/// Invariant: `xs` and `ys` strictly ascend and have at least two entries.
+#[derive(Clone, Debug)]
+pub(crate) struct Section {
+    pub(crate) xs: Vec<f64>,
+    pub(crate) ys: Vec<f64>,
+    solid: Vec<bool>, // row by row: [j * (xs.len() - 1) + i]
+    /// Part of the area on which not every direction agreed, because a face is missing.
+    pub(crate) doubtful_part: f64,
+}
+
+/// Sorted coordinates in which near ones are one.
+struct Coordinates {
+    values: Vec<f64>, // one of each cluster
+    tolerance: f64,
+}
+
+impl Coordinates {
+    fn new(mut all: Vec<f64>, tolerance: f64) -> Self {
+        all.sort_by(f64::total_cmp);
+        let mut values: Vec<f64> = Vec::new();
+        let mut first = 0;
+        for index in 1..=all.len() {
+            if index == all.len() || tolerance < all[index] - all[first] {
+                // The middle one of the cluster is a coordinate that the file really has.
+                values.push(all[(first + index - 1) / 2]);
+                first = index;
+            }
+        }
+        Self { values, tolerance }
+    }
+
+    fn index_of(&self, value: f64) -> usize {
+        let above = self.values.partition_point(|known| *known < value - self.tolerance);
+        let is_nearer = |index: usize| {
+            let distance = |index: usize| (self.values[index] - value).abs();
+            index + 1 < self.values.len() && distance(index + 1) < distance(index)
+        };
+        if is_nearer(above) { above + 1 } else { above.min(self.values.len() - 1) }
+    }
+}
+
+/// A change of the winding number along a row of equal offset: +1 where a face starts, -1 where it ends.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Edge {
+    facing: Facing,
+    offset: usize,
+    along: usize,
+    change: i32,
+}
+
+impl Section {
+    /// Sums up wall faces. `raw` must not be empty.
+    pub(crate) fn new(raw: &[Plane]) -> Result<Self, SectionError> {
+        let [xs, ys] = [0, 1].map(|axis| {
+            let values = raw.iter().flat_map(|plane| match plane.facing.axis() == axis {
+                true => [plane.offset, plane.offset],
+                false => [plane.start, plane.end],
+            });
+            values.collect::<Vec<_>>()
+        });
+        let extent = |values: &[f64]| {
+            let low = values.iter().copied().reduce(|a, b| if b < a { b } else { a });
+            let high = values.iter().copied().reduce(|a, b| if a < b { b } else { a });
+            high.unwrap_or(0.0) - low.unwrap_or(0.0)
+        };
+        let size = if extent(&xs) < extent(&ys) { extent(&ys) } else { extent(&xs) };
+        let coordinates = [xs, ys].map(|values| Coordinates::new(values, size * MERGE_PART));
+        let edges = edges(raw, &coordinates);
+        let used = used_coordinates(&edges, &coordinates);
+        let [xs, ys] = [0, 1].map(|axis| {
+            let of_axis: &Coordinates = &coordinates[axis];
+            let kept = of_axis.values.iter().zip(&used[axis]).filter(|(_, new)| new.is_some());
+            kept.map(|(value, _)| *value).collect::<Vec<_>>()
+        });
+        let (n_x, n_y) = (xs.len(), ys.len());
+        if n_x.checked_mul(n_y).is_none_or(|cells| MAX_CELLS < cells) {
+            return Err(SectionError::TooFine { n_x, n_y });
+        }
+        if n_x < 2 || n_y < 2 {
+            let (x, y) = (xs.first().copied().unwrap_or(0.0), ys.first().copied().unwrap_or(0.0));
+            return Err(SectionError::Open { percent: 100.0, x, y });
+        }
+        let votes = [0, 1].map(|axis| {
+            let n_cells = [n_x - 1, n_y - 1];
+            votes(&edges, &used, axis, n_cells[axis], n_cells[1 - axis])
+        });
+        Self::from_votes(xs, ys, &votes)
+    }
+
+    /// `votes[0][j * n_x + i]` and `votes[1][i * n_y + j]` say how often cell (i, j) looked solid, 0 to 2 times each.
+    fn from_votes(xs: Vec<f64>, ys: Vec<f64>, votes: &[Vec<u8>; 2]) -> Result<Self, SectionError> {
+        let (n_x, n_y) = (xs.len() - 1, ys.len() - 1);
+        let mut section = Self { xs, ys, solid: vec![false; n_x * n_y], doubtful_part: 0.0 };
+        let (mut doubtful_area, mut tied_area, mut first_tie) = (0.0, 0.0, None);
+        for j in 0..n_y {
+            for i in 0..n_x {
+                let n_solid = votes[0][j * n_x + i] + votes[1][i * n_y + j];
+                section.solid[j * n_x + i] = 3 <= n_solid;
+                let area = (section.xs[i + 1] - section.xs[i]) * (section.ys[j + 1] - section.ys[j]);
+                if !matches!(n_solid, 0 | 4) {
+                    doubtful_area += area;
+                }
+                if n_solid == 2 {
+                    tied_area += area;
+                    first_tie = first_tie.or(Some((section.xs[i], section.ys[j])));
+                }
+            }
+        }
+        let [low, high] = section.corners();
+        let area = (high[0] - low[0]) * (high[1] - low[1]);
+        section.doubtful_part = doubtful_area / area;
+        let percent = 100.0 * tied_area / area;
+        match first_tie {
+            Some((x, y)) if MAX_TIED_PERCENT < percent => Err(SectionError::Open { percent, x, y }),
+            _ => Ok(section),
+        }
+    }
+
+    /// Number of cells along x and along y.
+    pub(crate) fn n_cells(&self) -> [usize; 2] {
+        [self.xs.len() - 1, self.ys.len() - 1]
+    }
+
+    /// Lower left and upper right corner of the plan.
+    pub(crate) fn corners(&self) -> [[f64; 2]; 2] {
+        [[self.xs[0], self.ys[0]], [self.xs[self.xs.len() - 1], self.ys[self.ys.len() - 1]]]
+    }
+
+    /// Whether cell (i, j) is wall.
+    pub(crate) fn is_solid(&self, i: usize, j: usize) -> bool {
+        self.solid[j * (self.xs.len() - 1) + i]
+    }
+
+    /// The plan with every coordinate moved; both maps must be strictly increasing.
+    pub(crate) fn map(mut self, x: impl Fn(f64) -> f64, y: impl Fn(f64) -> f64) -> Self {
+        self.xs.iter_mut().for_each(|value| *value = x(*value));
+        self.ys.iter_mut().for_each(|value| *value = y(*value));
+        self
+    }
+
+    /// What lies at cell (i, j) of the plan framed by one ring of solid cells, so that no ball leaves the board.
+    fn is_solid_framed(&self, axis: usize, step: usize, across: usize) -> bool {
+        let n_steps = self.n_cells()[axis];
+        if step == 0 || n_steps < step {
+            return true;
+        }
+        if axis == 0 { self.is_solid(step - 1, across) } else { self.is_solid(across, step - 1) }
+    }
+
+    /// Every face between a solid and a free cell, in pieces one cell long; the frame included.
+    pub(crate) fn faces(&self) -> impl Iterator<Item = Plane> {
+        [0, 1].into_iter().flat_map(move |axis| {
+            let (offsets, alongs) = if axis == 0 { (&self.xs, &self.ys) } else { (&self.ys, &self.xs) };
+            (0..alongs.len() - 1).flat_map(move |across| {
+                (0..offsets.len()).filter_map(move |step| {
+                    let before = self.is_solid_framed(axis, step, across);
+                    let after = self.is_solid_framed(axis, step + 1, across);
+                    let facing = match (before, after, axis) {
+                        (true, false, 0) => Facing::PlusX,
+                        (false, true, 0) => Facing::MinusX,
+                        (true, false, _) => Facing::PlusY,
+                        (false, true, _) => Facing::MinusY,
+                        _ => return None,
+                    };
+                    let (start, end) = (alongs[across], alongs[across + 1]);
+                    Some(Plane { facing, offset: offsets[step], start, end })
+                })
+            })
+        })
+    }
+
+    /// The faces of the frame: where the outer wall is open. Pieces that touch are joined.
+    pub(crate) fn openings(&self) -> Vec<Plane> {
+        let [low, high] = self.corners();
+        let mut openings: Vec<Plane> = Vec::new();
+        for face in self.faces() {
+            let axis = face.facing.axis();
+            let rim = if 0.0 < face.facing.sign() { low[axis] } else { high[axis] };
+            if face.offset != rim {
+                continue;
+            }
+            match openings.iter_mut().find(|known| known.facing == face.facing && known.end == face.start) {
+                Some(known) => known.end = face.end,
+                None => openings.push(face),
+            }
+        }
+        openings
+    }
+
+    /// The commonest gap between opposing faces, weighted by how far it extends: the corridor's width.
+    ///
+    /// Gaps within 2 % of each other count as one width. `None` when no free space lies between two walls.
+    pub(crate) fn corridor(&self) -> Option<f64> {
+        let mut gaps: Vec<(f64, f64)> = Vec::new(); // (gap, extent)
+        for axis in [0, 1] {
+            let (offsets, alongs) = if axis == 0 { (&self.xs, &self.ys) } else { (&self.ys, &self.xs) };
+            for across in 0..alongs.len() - 1 {
+                let is_solid = |step: usize| self.is_solid_framed(axis, step + 1, across);
+                let mut last_wall_end: Option<f64> = None;
+                for step in 0..offsets.len() - 1 {
+                    if is_solid(step) {
+                        if let Some(end) = last_wall_end
+                            && end < offsets[step]
+                        {
+                            gaps.push((offsets[step] - end, alongs[across + 1] - alongs[across]));
+                        }
+                        last_wall_end = Some(offsets[step + 1]);
+                    }
+                }
+            }
+        }
+        gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let clusters = gaps.chunk_by(|a, b| b.0 <= a.0 * 1.02);
+        let weight = |cluster: &[(f64, f64)]| cluster.iter().map(|(_, extent)| extent).sum::<f64>();
+        // On a tie the narrower one: `max_by` keeps the last of equals, and clusters ascend.
+        let commonest = clusters.rev().max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
+        Some(commonest[commonest.len() / 2].0)
+    }
+}
+
+/// Starts and ends of all faces; a start and an end of the same row that meet cancel, so pieces become one.
+fn edges(raw: &[Plane], coordinates: &[Coordinates; 2]) -> Vec<Edge> {
+    let ends = raw.iter().flat_map(|plane| {
+        let axis = plane.facing.axis();
+        let offset = coordinates[axis].index_of(plane.offset);
+        [(plane.start, 1), (plane.end, -1)].map(|(along, change)| Edge {
+            facing: plane.facing,
+            offset,
+            along: coordinates[1 - axis].index_of(along),
+            change,
+        })
+    });
+    let mut ends: Vec<Edge> = ends.collect();
+    ends.sort_unstable();
+    let same_place = |a: &Edge, b: &Edge| (a.facing, a.offset, a.along) == (b.facing, b.offset, b.along);
+    let summed = ends
+        .chunk_by(same_place)
+        .map(|place| Edge { change: place.iter().map(|edge| edge.change).sum(), ..place[0] });
+    summed.filter(|edge| edge.change != 0).collect()
+}
+
+/// For each axis, the new index of every coordinate that an edge uses.
+fn used_coordinates(edges: &[Edge], coordinates: &[Coordinates; 2]) -> [Vec<Option<usize>>; 2] {
+    let mut used = [0, 1].map(|axis: usize| vec![None; coordinates[axis].values.len()]);
+    for edge in edges {
+        let axis = edge.facing.axis();
+        used[axis][edge.offset] = Some(0);
+        used[1 - axis][edge.along] = Some(0);
+    }
+    for of_axis in &mut used {
+        for (new, slot) in of_axis.iter_mut().filter(|slot| slot.is_some()).enumerate() {
+            *slot = Some(new);
+        }
+    }
+    used
+}
+
+/// How often each cell looks solid by the faces across `axis`, coming from the low side and coming from the high side:
+/// `[across * n_steps + step]`, 0 to 2. The two differ only on a line where a face is missing or extra.
+fn votes(
+    edges: &[Edge],
+    used: &[Vec<Option<usize>>; 2],
+    axis: usize,
+    n_steps: usize,
+    n_across: usize,
+) -> Vec<u8> {
+    // Change of the winding number at each coordinate, `n_steps + 1` of them a line.
+    let mut changes = vec![0; (n_steps + 1) * n_across];
+    let of_axis = edges.iter().filter(|edge| edge.facing.axis() == axis).collect::<Vec<_>>();
+    for row in of_axis.chunk_by(|a, b| (a.facing, a.offset) == (b.facing, b.offset)) {
+        let Some(step) = used[axis][row[0].offset] else { continue };
+        let enters = if row[0].facing.sign() < 0.0 { 1 } else { -1 };
+        let mut depth = 0;
+        for pair in row.windows(2) {
+            depth += pair[0].change;
+            let [Some(from), Some(to)] = [pair[0].along, pair[1].along].map(|along| used[1 - axis][along])
+            else {
+                continue;
+            };
+            for across in from..to {
+                changes[across * (n_steps + 1) + step] += enters * depth;
+            }
+        }
+    }
+    let mut votes = Vec::with_capacity(n_steps * n_across);
+    for line in changes.chunks(n_steps + 1) {
+        let total: i32 = line.iter().sum();
+        let mut from_low = 0;
+        votes.extend(line[..n_steps].iter().map(|change| {
+            from_low += change;
+            u8::from(from_low != 0) + u8::from(from_low != total)
+        }));
+    }
+    votes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SortedPlanes;
+
+    /// The four faces of a solid rectangle.
+    fn block(x: [f64; 2], y: [f64; 2]) -> [Plane; 4] {
+        let plane = |facing, offset, [start, end]: [f64; 2]| Plane { facing, offset, start, end };
+        [
+            plane(Facing::MinusX, x[0], y),
+            plane(Facing::PlusX, x[1], y),
+            plane(Facing::MinusY, y[0], x),
+            plane(Facing::PlusY, y[1], x),
+        ]
+    }
+
+    fn section(blocks: &[[Plane; 4]]) -> Section {
+        Section::new(&blocks.concat()).unwrap()
+    }
+
+    /// A ring of walls, one unit thick, with a 3 x 3 hole.
+    fn ring() -> Vec<[Plane; 4]> {
+        vec![
+            block([0.0, 5.0], [0.0, 1.0]),
+            block([0.0, 5.0], [4.0, 5.0]),
+            block([0.0, 1.0], [1.0, 4.0]),
+            block([4.0, 5.0], [1.0, 4.0]),
+        ]
+    }
+
+    #[test]
+    fn faces_hidden_where_two_walls_meet_are_dropped() {
+        let planes = SortedPlanes::new(section(&ring()).faces()).unwrap();
+        assert_eq!(planes.len(), 4, "only the four inner faces remain: {planes:?}");
+        let inner: Vec<_> = Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing)).collect();
+        assert!(inner.iter().all(|plane| (plane.start, plane.end) == (1.0, 4.0)));
+    }
+
+    #[test]
+    fn overlapping_walls_are_one() {
+        let mut blocks = ring();
+        blocks.push(block([0.5, 2.0], [2.0, 3.0])); // a stub that reaches into the left wall
+        let planes = SortedPlanes::new(section(&blocks).faces()).unwrap();
+        let plus_x: Vec<_> = planes.planes(Facing::PlusX).map(|p| (p.offset, p.start, p.end)).collect();
+        assert_eq!(plus_x, [(1.0, 1.0, 2.0), (1.0, 3.0, 4.0), (2.0, 2.0, 3.0)]);
+    }
+
+    #[test]
+    fn inverted_walls_are_as_solid() {
+        let flipped = |plane: Plane| Plane {
+            facing: match plane.facing {
+                Facing::PlusX => Facing::MinusX,
+                Facing::MinusX => Facing::PlusX,
+                Facing::PlusY => Facing::MinusY,
+                Facing::MinusY => Facing::PlusY,
+            },
+            ..plane
+        };
+        let raw: Vec<Plane> = ring().concat().into_iter().map(flipped).collect();
+        let inverted = SortedPlanes::new(Section::new(&raw).unwrap().faces()).unwrap();
+        assert_eq!(inverted, SortedPlanes::new(section(&ring()).faces()).unwrap());
+    }
+
+    #[test]
+    fn openings_of_the_outer_wall_are_found_and_closed_by_the_frame() {
+        let mut blocks = ring();
+        // The far wall has a gap from x = 2 to 4.
+        blocks[1] = block([0.0, 2.0], [4.0, 5.0]);
+        blocks.push(block([4.0, 5.0], [4.0, 5.0]));
+        let section = section(&blocks);
+        let openings = section.openings();
+        assert_eq!(openings, [Plane { facing: Facing::MinusY, offset: 5.0, start: 2.0, end: 4.0 }]);
+        assert!(section.faces().any(|face| face.facing == Facing::MinusY && face.offset == 5.0));
+    }
+
+    #[test]
+    fn the_commonest_gap_is_the_corridor() {
+        let mut blocks = vec![block([0.0, 10.0], [-1.0, 0.0])];
+        blocks.push(block([0.0, 10.0], [1.5, 2.0])); // a corridor 1.5 wide and 10 long
+        blocks.push(block([0.0, 3.0], [4.0, 5.0])); // and a space 2 wide and 3 long
+        assert_eq!(section(&blocks).corridor(), Some(1.5));
+    }
+
+    #[test]
+    fn rounding_in_the_file_does_not_split_a_coordinate() {
+        let mut blocks = ring();
+        blocks[2] = block([0.0, 1.000_001], [0.999_999, 4.0]);
+        let planes = SortedPlanes::new(section(&blocks).faces()).unwrap();
+        assert_eq!(planes.len(), 4, "{planes:?}");
+    }
+
+    #[test]
+    fn a_forgotten_face_is_outvoted() {
+        let whole = SortedPlanes::new(section(&ring()).faces()).unwrap();
+        let raw = ring().concat();
+        for missing in 0..raw.len() {
+            let mut raw = raw.clone();
+            raw.remove(missing);
+            let section = Section::new(&raw).unwrap();
+            assert_eq!(SortedPlanes::new(section.faces()).unwrap(), whole, "without face {missing}");
+        }
+    }
+
+    #[test]
+    fn walls_without_ends_are_refused_with_the_place() {
+        let raw: Vec<Plane> = ring().concat().into_iter().filter(|plane| plane.facing.axis() == 0).collect();
+        let raw = &raw;
+        let error = Section::new(raw).unwrap_err();
+        assert!(matches!(error, SectionError::Open { .. }), "{error}");
+    }
+}

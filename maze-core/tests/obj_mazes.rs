@@ -1,0 +1,109 @@
+//! Mazes from OBJ text: our own small oddities, and what is refused.
+
+use maze_core::{AssembleOptions, Facing, Maze, Radius, UpAxis, import};
+
+/// A closed box as OBJ text; corners count on from `base`.
+fn block(base: usize, low: [f64; 3], high: [f64; 3]) -> String {
+    let mut text = String::new();
+    for corner in 0..8 {
+        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+        text += &format!("v {} {} {}\n", pick(0), pick(1), pick(2));
+    }
+    for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+        let [a, b, c, d] = face.map(|corner| corner + base);
+        text += &format!("f {a} {b} {c} {d}\n");
+    }
+    text
+}
+
+/// A 6 x 4 room, walls 1 thick and 2 high along +z, with a door 1.5 wide at the right end of the far wall.
+fn room() -> String {
+    let walls = [
+        ([0.0, 0.0], [8.0, 1.0]),
+        ([0.0, 1.0], [1.0, 6.0]),
+        ([7.0, 1.0], [8.0, 6.0]),
+        ([1.0, 5.0], [5.5, 6.0]),
+    ];
+    let blocks = walls
+        .iter()
+        .enumerate()
+        .map(|(n, (low, high))| block(8 * n, [low[0], low[1], 0.0], [high[0], high[1], 2.0]));
+    blocks.collect()
+}
+
+fn load(text: &str, options: &AssembleOptions) -> Result<Maze, String> {
+    let mesh = import::obj::read(text.as_bytes()).map_err(|error| error.to_string())?;
+    Maze::from_polygons(&mesh, options).map_err(|error| error.to_string())
+}
+
+fn loaded(text: &str) -> Maze {
+    load(text, &AssembleOptions::default()).unwrap()
+}
+
+#[test]
+fn a_room_has_its_inner_faces_a_door_and_a_laid_floor() {
+    let maze = loaded(&room());
+    // The commonest gap is the room's depth of 4 over a width of 6; scaled to 1.
+    assert_eq!(maze.scale, 0.25);
+    assert_eq!(maze.up_axis, UpAxis::Z);
+    assert!(!maze.has_floor && maze.solvable);
+    assert_eq!(maze.openings.len(), 1);
+    assert_eq!((maze.openings[0].facing, maze.openings[0].offset), (Facing::MinusY, 0.75));
+    // +x: the left wall and the door's left post; +y: the near wall; -y: the far wall and the closed door.
+    let counts = Facing::ALL.map(|facing| maze.planes.n_planes(facing));
+    assert_eq!(counts, [2, 1, 1, 2]);
+    assert!((maze.wall_height - 0.5).abs() < 1.0e-12);
+}
+
+#[test]
+fn y_up_is_the_same_maze_and_not_its_mirror_image() {
+    let turned: String = room()
+        .lines()
+        .map(|line| match line.strip_prefix("v ") {
+            Some(numbers) => {
+                let numbers: Vec<f64> = numbers.split(' ').map(|word| word.parse().unwrap()).collect();
+                format!("v {} {} {}\n", numbers[0], numbers[2], -numbers[1])
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    let (z_up, y_up) = (loaded(&room()), loaded(&turned));
+    assert_eq!(y_up.up_axis, UpAxis::Y);
+    assert_eq!(y_up.planes, z_up.planes);
+    assert_eq!((y_up.start, y_up.goal), (z_up.start, z_up.goal));
+}
+
+#[test]
+fn every_surface_is_drawn() {
+    let maze = loaded(&room());
+    for surface in maze_core::surface::Surface::ALL {
+        assert!(!maze.surface.indices_of(surface).is_empty(), "{surface:?}");
+    }
+}
+
+#[test]
+fn what_is_no_maze_is_refused_with_the_reason() {
+    let refused = |text: &str| load(text, &AssembleOptions::default()).unwrap_err();
+    assert_eq!(refused("v 0 0 0\n"), "no faces: expected walls");
+    let floor = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+    let no_walls =
+        load(floor, &AssembleOptions { up_axis: Some(UpAxis::Z), ..Default::default() }).unwrap_err();
+    assert!(no_walls.starts_with("no walls among 1 faces"), "{no_walls}");
+    let tetrahedron = "v 0 0 0\nv 4 1 0\nv 1 4 0\nv 1 1 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+    assert!(refused(tetrahedron).starts_with("not a maze of axis-aligned walls: 100.0 %"));
+    let one_block = block(0, [0.0; 3], [3.0, 3.0, 1.0]);
+    assert!(refused(&one_block).starts_with("no corridor"));
+    let too_large = AssembleOptions { ball_radius: Radius::new(0.9), ..Default::default() };
+    assert_eq!(
+        load(&room(), &too_large).unwrap_err(),
+        "a ball of radius 0.9 corridors fits nowhere in this maze: expected less than 0.5"
+    );
+}
+
+#[test]
+fn a_file_cut_anywhere_is_a_maze_or_a_reason_and_never_a_panic() {
+    let text = room();
+    for end in 0..text.len() {
+        let _ = load(&text[..end], &AssembleOptions::default());
+    }
+}
