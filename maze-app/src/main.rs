@@ -1,2 +1,81 @@
-//! stub
-fn main(){}
+//! The game and its command line. The only crate with a window, files and a clock.
+#![forbid(unsafe_code)]
+
+mod app;
+mod clock;
+mod command;
+mod failure;
+mod files;
+mod game;
+mod input;
+mod source;
+mod state_log;
+mod ui;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Tilt the maze, roll the ball, find the way.
+///
+/// Without a subcommand: play a new random maze.
+#[derive(Parser)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = "Examples:\n  maze-app                              play a new random maze\n  \
+                  maze-app play --seed 7 --size 20x12   play this one\n  \
+                  maze-app play my_maze.obj             play your own\n\n\
+                  Exit status: 0 done; 1 what was asked for did not hold; 2 bad input or usage."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    play: command::play::Arguments,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Open the game.
+    Play(command::play::Arguments),
+    /// Load a maze and say what was found in it.
+    Info(command::info::Arguments),
+    /// Make a random maze and write it as an OBJ file.
+    Generate(command::generate::Arguments),
+    /// Draw one picture of a maze, without a window.
+    Render(command::render::Arguments),
+}
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let result = match cli.command.unwrap_or(Command::Play(cli.play)) {
+        Command::Play(arguments) => command::play::run(arguments),
+        Command::Info(arguments) => command::info::run(&arguments),
+        Command::Generate(arguments) => command::generate::run(&arguments),
+        Command::Render(arguments) => command::render::run(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("maze-app: {failure}");
+            failure.exit_code()
+        }
+    }
+}
+
+/// Help and version go to stdout as they are; what is wrong becomes one line.
+fn usage(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() {
+        print!("{error}");
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let reason = text.split("\n\n").next().unwrap_or_default();
+    let reason: Vec<&str> = reason.split_whitespace().skip_while(|word| *word == "error:").collect();
+    eprintln!("maze-app: {} (see --help)", reason.join(" "));
+    Failure::bad_input("").exit_code()
+}

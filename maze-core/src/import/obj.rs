@@ -42,6 +42,14 @@ pub enum ObjError {
         /// In the whole file.
         n_vertices: usize,
     },
+    /// The file ends in the middle of a line, and faces for its last vertices are missing.
+    #[error("line {line}: the file is cut off here: no face uses the last of its {n_vertices} vertices")]
+    CutOff {
+        /// Counted from 1.
+        line: usize,
+        /// In the whole file.
+        n_vertices: usize,
+    },
     /// Anything else that the reader refuses.
     #[error("not a Wavefront OBJ: {reason}")]
     Other {
@@ -67,6 +75,9 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
     let no_materials = |_: &std::path::Path| Err(LoadError::OpenFileFailed);
     let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
         .map_err(|error| locate(&text, error))?;
+    if let Some(error) = cut_off(&text) {
+        return Err(error);
+    }
     let n_positions: usize = models.iter().map(|model| model.mesh.positions.len() / 3).sum();
     let mut positions = Vec::with_capacity(n_positions);
     for model in &models {
@@ -94,6 +105,37 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
         base += u32::try_from(model.mesh.positions.len() / 3).unwrap_or(u32::MAX);
     }
     Ok(mesh)
+}
+
+/// Part of a file's vertices, at its end, that may be without a face in a whole file.
+const MAX_UNUSED_PART: f64 = 0.05;
+
+/// Whether a file that could be read is only the beginning of one.
+///
+/// The sign is a tail of vertices that no face uses: any at all when the last line does not end either (many good files
+/// lack the last line break, so that alone says nothing), more than a few otherwise.
+fn cut_off(text: &str) -> Option<ObjError> {
+    let (mut n_vertices, mut last_used, mut n_faces) = (0, 0, 0_usize);
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => n_vertices += 1,
+            Some("f") => {
+                n_faces += 1;
+                let indices = words.filter_map(|word| word.split('/').next()?.parse::<i64>().ok());
+                let absolute = indices.map(|index| if index < 0 { n_vertices + 1 + index } else { index });
+                last_used = absolute.chain([last_used]).max().unwrap_or(last_used);
+            }
+            _ => {}
+        }
+    }
+    #[allow(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 vertices")]
+    let [n_unused, most] = [(n_vertices - last_used) as f64, n_vertices as f64 * MAX_UNUSED_PART];
+    let most = if text.ends_with('\n') { most } else { 0.0 };
+    (0 < n_faces && most < n_unused).then(|| ObjError::CutOff {
+        line: text.lines().count(),
+        n_vertices: usize::try_from(n_vertices).unwrap_or_default(),
+    })
 }
 
 /// The first line that explains why the reader refused the file; the reader itself does not say.
@@ -183,6 +225,17 @@ mod tests {
         assert!(
             message(&format!("{SQUARE}f 1 b 3\n")).starts_with("line 5: expected `f` and vertex indices")
         );
+    }
+
+    #[test]
+    fn a_file_that_ends_in_the_middle_is_told_from_one_without_a_last_line_break() {
+        assert_eq!(
+            message(&format!("{SQUARE}f 1 2 3\nf 1 3")),
+            "line 6: the file is cut off here: no face uses the last of its 4 vertices"
+        );
+        assert!(message(&format!("{SQUARE}f 1 2 3\n")).starts_with("line 5: the file is cut off here"));
+        assert!(read(format!("{SQUARE}f 1 2 3\nf 1 3 4").as_bytes()).is_ok());
+        assert!(read(format!("{SQUARE}f 1 2 3\nf -1 -2 -4").as_bytes()).is_ok());
     }
 
     #[test]

@@ -1,0 +1,287 @@
+//! The window: events in, frames out; nothing else.
+
+mod graphics;
+mod view;
+
+use crate::clock::Clock;
+use crate::command::play::{Setup, Source};
+use crate::failure::Failure;
+use crate::game::{Game, to_f32};
+use crate::input::{self, Action, TiltControl};
+use crate::state_log::{State, StateLog};
+use crate::ui::Hud;
+use graphics::{Drawn, Graphics};
+use maze_core::Maze;
+use maze_render::{Camera, TextureSet};
+use std::time::{Duration, Instant};
+use view::View;
+use winit::application::ApplicationHandler;
+use winit::dpi::{LogicalSize, PhysicalPosition};
+use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::keyboard::PhysicalKey;
+use winit::window::{Window, WindowId};
+
+/// Size of a new window (logical pixels).
+const WINDOW_SIZE: LogicalSize<u32> = LogicalSize::new(1280, 720);
+
+/// Pixels of a touchpad's scroll that count as one notch of a wheel.
+const PIXELS_PER_NOTCH: f64 = 40.0;
+
+/// While nothing is shown, how often to look whether it is time to end.
+const HIDDEN_WAKE: Duration = Duration::from_millis(100);
+
+/// The way to the window system, or one line that says why there is none.
+pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
+    EventLoop::new().map_err(|error| {
+        Failure::bad_input(format!(
+            "no display to open a window on (`maze-app render` draws without one): {error}"
+        ))
+    })
+}
+
+/// Everything that lives as long as the window.
+pub(crate) struct App {
+    game: Game,
+    clock: Clock,
+    control: TiltControl,
+    view: View,
+    source: Source,
+    textures: TextureSet,
+    state_log: Option<StateLog>,
+    exit_after: Option<Duration>,
+    graphics: Option<Graphics>,
+    cursor: PhysicalPosition<f64>,
+    help: bool,
+    hidden: bool,
+    n_ticks: u64,
+    max_tilt_rad: f32,
+    opened: Instant,
+    last_frame: Instant,
+    next_frame: Instant,
+    failure: Option<Failure>,
+}
+
+impl App {
+    pub(crate) fn new(setup: Setup, maze: Maze) -> Result<Self, Failure> {
+        let game = Game::new(maze)?;
+        let now = Instant::now();
+        Ok(Self {
+            clock: Clock::new(game.tick_s()),
+            game,
+            control: TiltControl::new(setup.max_tilt_rad),
+            view: View::default(),
+            source: setup.source,
+            textures: setup.textures,
+            state_log: setup.state_log,
+            exit_after: setup.exit_after,
+            graphics: None,
+            cursor: PhysicalPosition::default(),
+            help: true,
+            hidden: false,
+            n_ticks: 0,
+            max_tilt_rad: to_f32(setup.max_tilt_rad),
+            opened: now,
+            last_frame: now,
+            next_frame: now,
+            failure: None,
+        })
+    }
+
+    /// Until the window closes.
+    pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<(), Failure> {
+        event_loop.run_app(&mut self).map_err(Failure::bad_input)?;
+        self.failure.map_or(Ok(()), Err)
+    }
+
+    fn end_with(&mut self, event_loop: &ActiveEventLoop, failure: Failure) {
+        self.failure = Some(failure);
+        event_loop.exit();
+    }
+
+    fn load_into_graphics(&mut self) {
+        if let Some(graphics) = &mut self.graphics {
+            graphics.set_maze(self.game.maze(), &format!("Maze  {}", self.source.title()));
+        }
+    }
+
+    fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
+        let attributes = Window::default_attributes().with_inner_size(WINDOW_SIZE).with_title("Maze");
+        let window = event_loop
+            .create_window(attributes)
+            .map_err(|error| Failure::bad_input(format!("cannot open a window: {error}")))?;
+        self.graphics = Some(Graphics::new(event_loop, window, &self.textures)?);
+        self.load_into_graphics();
+        Ok(())
+    }
+
+    fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) -> Result<(), Failure> {
+        match action {
+            Action::ZoomIn => self.view.zoom_by_notches(1.0),
+            Action::ZoomOut => self.view.zoom_by_notches(-1.0),
+            Action::Level => self.control.level(),
+            Action::ToggleHelp => self.help = !self.help,
+            Action::Quit => event_loop.exit(),
+            Action::Restart => {
+                self.control.level();
+                self.game.restart()?;
+            }
+            Action::NewMaze => {
+                if self.source.next() {
+                    self.control.level();
+                    self.game = Game::new(self.source.load()?)?;
+                    self.view = View::default();
+                    self.load_into_graphics();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) -> Result<(), Failure> {
+        let PhysicalKey::Code(key) = event.physical_key else { return Ok(()) };
+        let pressed = event.state == ElementState::Pressed;
+        if let Some(direction) = input::tilt_direction_of(key)
+            && !event.repeat
+        {
+            self.control.key(direction, pressed);
+        }
+        match input::action_of(key) {
+            // Held zoom keys go on zooming; everything else happens once a press.
+            Some(action @ (Action::ZoomIn | Action::ZoomOut)) if pressed => self.act(event_loop, action),
+            Some(action) if pressed && !event.repeat => self.act(event_loop, action),
+            _ => Ok(()),
+        }
+    }
+
+    fn simulate(&mut self, elapsed: Duration) -> Result<(), Failure> {
+        for _ in 0..self.clock.advance(elapsed.as_secs_f64()) {
+            self.control.tick(self.game.tick_s());
+            let tilt = self.control.tilt();
+            // The events are for sound; the screen reads the game's phase.
+            self.game.tick(tilt)?;
+            self.n_ticks += 1;
+            self.log_state()?;
+        }
+        Ok(())
+    }
+
+    fn log_state(&mut self) -> Result<(), Failure> {
+        let Some(log) = &mut self.state_log else { return Ok(()) };
+        let orientation = self.game.tilt().world_from_maze();
+        let ball = self.game.ball();
+        log.write(&State {
+            tick: self.n_ticks,
+            orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
+            position: ball.position.into(),
+            velocity: ball.velocity.into(),
+            camera_distance: self.view.camera().distance,
+            phase: self.game.phase().name(),
+            clock_ticks: self.game.n_ticks(),
+        })
+    }
+
+    fn frame(&mut self) -> Result<(), Failure> {
+        let now = Instant::now();
+        let elapsed = now - self.last_frame;
+        self.last_frame = now;
+        let Some(graphics) = &self.graphics else { return Ok(()) };
+        let aspect = graphics.aspect();
+        self.simulate(elapsed)?;
+        let held = self.control.is_dragged().then_some(&self.control);
+        let pose = self.game.pose(self.clock.alpha(), held);
+        let whole = Camera::fitted(self.game.half_size(), aspect, self.max_tilt_rad);
+        self.view.update(elapsed, whole, pose.ball_in_world().cast());
+        let scene = self.game.scene(&pose, self.view.camera());
+        let title = self.source.title();
+        let hud = Hud {
+            phase: self.game.phase(),
+            n_ticks: self.game.n_ticks(),
+            tick_s: self.game.tick_s(),
+            title: &title,
+            has_next: self.source.has_next(),
+            help: self.help,
+        };
+        let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        if let Drawn::DeviceLost = graphics.draw(&scene, &hud)? {
+            graphics.rebuild(&self.textures)?;
+            self.load_into_graphics();
+        }
+        Ok(())
+    }
+
+    fn handle(&mut self, event_loop: &ActiveEventLoop, event: WindowEvent) -> Result<(), Failure> {
+        let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        match event {
+            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::Resized(size) => graphics.resize(size.into()),
+            WindowEvent::Occluded(hidden) => {
+                self.hidden = hidden;
+                // The time behind other windows is not played.
+                self.last_frame = Instant::now();
+            }
+            WindowEvent::Focused(false) => self.control.release_all(),
+            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event)?,
+            WindowEvent::CursorMoved { position, .. } => {
+                self.cursor = position;
+                if let Some(point) = graphics.arcball_point(position.into()) {
+                    self.control.drag_to(point);
+                }
+            }
+            WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => match state {
+                ElementState::Released => self.control.end_drag(),
+                ElementState::Pressed => {
+                    if let Some(point) = graphics.arcball_point(self.cursor.into()) {
+                        self.control.begin_drag(point);
+                    }
+                }
+            },
+            WindowEvent::MouseWheel { delta, .. } => self.view.zoom_by_notches(match delta {
+                MouseScrollDelta::LineDelta(_, notches) => f64::from(notches),
+                MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
+            }),
+            WindowEvent::RedrawRequested => self.frame()?,
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+impl ApplicationHandler for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if self.graphics.is_some() {
+            return;
+        }
+        if let Err(failure) = self.open_window(event_loop) {
+            return self.end_with(event_loop, failure);
+        }
+        self.opened = Instant::now();
+        self.last_frame = self.opened;
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        if let Err(failure) = self.handle(event_loop, event) {
+            self.end_with(event_loop, failure);
+        }
+    }
+
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, _: StartCause) {
+        if self.exit_after.is_some_and(|exit_after| exit_after <= self.opened.elapsed()) {
+            event_loop.exit();
+        }
+    }
+
+    fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(graphics) = &self.graphics else { return };
+        let now = Instant::now();
+        if self.hidden {
+            return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
+        }
+        if self.next_frame <= now {
+            // Kept to a fixed rhythm, but never behind: a slow frame is not made up for by a burst.
+            self.next_frame = (self.next_frame + graphics.frame_time()).max(now);
+            graphics.request_redraw();
+        }
+        event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));
+    }
+}

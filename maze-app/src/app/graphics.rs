@@ -1,0 +1,123 @@
+//! The window's GPU side: device, renderer, HUD; rebuilt when the device is lost.
+
+use crate::failure::Failure;
+use crate::input;
+use crate::ui::{Hud, Overlay};
+use maze_core::Maze;
+use maze_render::{Acquired, Camera, Gpu, Renderer, Scene, TextureSet, WindowTarget};
+use nalgebra::Vector3;
+use std::sync::Arc;
+use std::time::Duration;
+use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
+use winit::window::Window;
+
+/// Frame caps: presenting in step with the screen is not reliable everywhere (a virtual display never waits), and a
+/// software driver shares its cores with the game.
+const FRAMES_PER_S: u32 = 240;
+const SOFTWARE_FRAMES_PER_S: u32 = 60;
+
+/// How often a lost device is replaced before the game gives up.
+const MAX_REBUILDS: u32 = 3;
+
+pub(super) enum Drawn {
+    /// Shown, or nothing to show it on just now.
+    Done,
+    DeviceLost,
+}
+
+pub(super) struct Graphics {
+    window: Arc<Window>,
+    display: OwnedDisplayHandle,
+    gpu: Gpu,
+    target: WindowTarget,
+    renderer: Renderer,
+    overlay: Overlay,
+    n_rebuilds: u32,
+}
+
+impl Graphics {
+    pub(super) fn new(
+        event_loop: &ActiveEventLoop,
+        window: Window,
+        textures: &TextureSet,
+    ) -> Result<Self, Failure> {
+        Self::build(event_loop.owned_display_handle(), Arc::new(window), textures, 0)
+    }
+
+    fn build(
+        display: OwnedDisplayHandle,
+        window: Arc<Window>,
+        textures: &TextureSet,
+        n_rebuilds: u32,
+    ) -> Result<Self, Failure> {
+        let size = window.inner_size().into();
+        let (gpu, target) =
+            Gpu::for_window(window.clone(), Box::new(display.clone()), size).map_err(Failure::bad_input)?;
+        let renderer = Renderer::new(&gpu, target.format(), textures);
+        let overlay = Overlay::new(&gpu, target.format());
+        Ok(Self { window, display, gpu, target, renderer, overlay, n_rebuilds })
+    }
+
+    /// A new device in place of a lost one. The maze has to be set again.
+    pub(super) fn rebuild(&mut self, textures: &TextureSet) -> Result<(), Failure> {
+        if self.n_rebuilds == MAX_REBUILDS {
+            return Err(Failure::bad_input(format!(
+                "the graphics device was lost {} times; is the driver all right?",
+                MAX_REBUILDS + 1
+            )));
+        }
+        *self = Self::build(self.display.clone(), self.window.clone(), textures, self.n_rebuilds + 1)?;
+        Ok(())
+    }
+
+    pub(super) fn set_maze(&mut self, maze: &Maze, title: &str) {
+        self.renderer.set_maze(&self.gpu, &maze.surface);
+        self.window.set_title(title);
+    }
+
+    pub(super) fn resize(&mut self, size: [u32; 2]) {
+        self.target.resize(&self.gpu, size);
+    }
+
+    pub(super) fn request_redraw(&self) {
+        self.window.request_redraw();
+    }
+
+    /// Width over height.
+    pub(super) fn aspect(&self) -> f32 {
+        #[allow(clippy::cast_precision_loss, reason = "no window is 2^24 pixels wide")]
+        let [width, height] = self.target.size().map(|pixels| pixels.max(1) as f32);
+        width / height
+    }
+
+    /// Shortest time from frame to frame.
+    pub(super) fn frame_time(&self) -> Duration {
+        let software = self.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
+        Duration::from_secs(1) / if software { SOFTWARE_FRAMES_PER_S } else { FRAMES_PER_S }
+    }
+
+    /// The arcball's point under a pixel, in world axes.
+    pub(super) fn arcball_point(&self, pixel: [f64; 2]) -> Option<Vector3<f64>> {
+        let point = input::sphere_point(self.target.size(), pixel)?;
+        Some(Camera::world_from_view().cast::<f64>() * point)
+    }
+
+    pub(super) fn draw(&mut self, scene: &Scene, hud: &Hud<'_>) -> Result<Drawn, Failure> {
+        let frame = match self.target.acquire(&self.gpu).map_err(Failure::bad_input)? {
+            Acquired::Frame(frame) => frame,
+            Acquired::Skip => return Ok(Drawn::Done),
+            Acquired::DeviceLost => return Ok(Drawn::DeviceLost),
+        };
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let size = self.target.size();
+        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.draw(&self.gpu, &mut encoder, &view, size, scene);
+        #[allow(clippy::cast_possible_truncation, reason = "a scale factor is a small number")]
+        let scale = self.window.scale_factor() as f32;
+        self.overlay.draw(&self.gpu, &mut encoder, &view, size, scale, hud);
+        self.gpu.queue.submit([encoder.finish()]);
+        self.window.pre_present_notify();
+        self.gpu.queue.present(frame);
+        Ok(Drawn::Done)
+    }
+}

@@ -1,0 +1,80 @@
+//! The camera: the whole maze at first, nearer with the ball in the middle when zoomed in.
+
+use crate::game::to_f32;
+use maze_render::Camera;
+use nalgebra::Vector3;
+use std::time::Duration;
+
+/// How far the player may go: 1 shows the whole maze.
+const ZOOM_RANGE: [f64; 2] = [0.5, 6.0];
+
+/// What one key press or notch of the wheel multiplies the zoom by.
+const ZOOM_PER_NOTCH: f64 = 1.15;
+
+/// From this zoom on the ball is kept in the middle; in between the view slides over to it.
+const FOLLOW_ZOOM: f64 = 2.0;
+
+/// Time in which the view covers all but a third of its way (s): quick, and without a jerk.
+const SETTLE_S: f64 = 0.09;
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    wanted_zoom: f64,
+    zoom: f64,
+    camera: Camera,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { wanted_zoom: 1.0, zoom: 1.0, camera: Camera { target: [0.0; 3], distance: 1.0 } }
+    }
+}
+
+impl View {
+    pub(super) fn zoom_by_notches(&mut self, notches: f64) {
+        let zoom = self.wanted_zoom * ZOOM_PER_NOTCH.powf(notches);
+        self.wanted_zoom = zoom.clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
+    }
+
+    pub(super) fn camera(&self) -> Camera {
+        self.camera
+    }
+
+    /// Moves towards what is wanted: `whole` shows the whole maze, `ball` is where the ball is in the world.
+    pub(super) fn update(&mut self, elapsed: Duration, whole: Camera, ball: Vector3<f32>) {
+        let left = (-elapsed.as_secs_f64() / SETTLE_S).exp();
+        self.zoom = self.wanted_zoom + (self.zoom - self.wanted_zoom) * left;
+        let follow = ((self.zoom - 1.0) / (FOLLOW_ZOOM - 1.0)).clamp(0.0, 1.0);
+        let middle = Vector3::from(whole.target);
+        let target = middle + (ball - middle) * to_f32(follow);
+        self.camera = Camera { target: target.into(), distance: whole.distance / to_f32(self.zoom) };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHOLE: Camera = Camera { target: [0.0, 1.0, 0.0], distance: 20.0 };
+
+    fn settled(notches: f64) -> Camera {
+        let mut view = View::default();
+        view.zoom_by_notches(notches);
+        view.update(Duration::from_secs(10), WHOLE, Vector3::new(3.0, 4.0, 0.0));
+        view.camera()
+    }
+
+    #[test]
+    fn zoom_stays_within_its_limits() {
+        assert_eq!(settled(0.0), WHOLE);
+        let [farthest, nearest] = ZOOM_RANGE.map(|zoom| 20.0 / to_f32(zoom));
+        assert!((settled(100.0).distance - nearest).abs() < 1.0e-4);
+        assert!((settled(-100.0).distance - farthest).abs() < 1.0e-4);
+    }
+
+    #[test]
+    fn the_ball_is_in_the_middle_when_zoomed_in() {
+        assert_eq!(settled(20.0).target, [3.0, 4.0, 0.0]);
+        assert_eq!(settled(-3.0).target, WHOLE.target);
+    }
+}

@@ -1,0 +1,148 @@
+//! `maze-app info`: what was found in a maze file.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::source::ReadArguments;
+use clap::Args;
+use maze_core::{Facing, Maze, Plane};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.obj --planes +y\n\n\
+                        Exit status 1 when no way leads from start to goal.")]
+pub(crate) struct Arguments {
+    /// A maze (.obj)
+    file: PathBuf,
+    #[command(flatten)]
+    read: ReadArguments,
+    /// One JSON object instead of text
+    #[arg(long)]
+    json: bool,
+    /// The sorted table of one group instead: +x, -x, +y or -y
+    #[arg(long, value_name = "FACING", value_parser = parse_facing, allow_hyphen_values = true)]
+    planes: Option<Facing>,
+}
+
+fn parse_facing(text: &str) -> Result<Facing, String> {
+    let known = Facing::ALL.into_iter().find(|facing| facing.name() == text);
+    known.ok_or_else(|| "expected +x, -x, +y or -y".to_owned())
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let maze = arguments.read.load(&arguments.file)?;
+    let text = match (arguments.planes, arguments.json) {
+        (Some(facing), true) => {
+            format!("{}\n", json!({ "facing": facing.name(), "planes": table(&maze, facing) }))
+        }
+        (Some(facing), false) => table_text(&maze, facing),
+        (None, true) => format!("{}\n", summary(&maze)),
+        (None, false) => summary_text(&maze),
+    };
+    files::print(&text)?;
+    if maze.solvable {
+        return Ok(());
+    }
+    Err(Failure::not_held(format!("{}: no way leads from start to goal", arguments.file.display())))
+}
+
+fn table(maze: &Maze, facing: Facing) -> Vec<[f64; 3]> {
+    maze.planes.planes(facing).map(|plane| [plane.offset, plane.start, plane.end]).collect()
+}
+
+/// The report's Fig. 5: the group in the order in which it is searched.
+fn table_text(maze: &Maze, facing: Facing) -> String {
+    let [across, along] = axes(facing);
+    let mut lines = vec![
+        format!("planes facing {}, sorted by offset, start, end (maze units)", facing.name()),
+        format!(
+            "{:>6} {across:>12} {:>12} {:>12}",
+            "index",
+            format!("{along} start"),
+            format!("{along} end")
+        ),
+    ];
+    lines.extend(maze.planes.planes(facing).enumerate().map(|(index, Plane { offset, start, end, .. })| {
+        format!("{index:>6} {offset:>12.6} {start:>12.6} {end:>12.6}")
+    }));
+    lines.join("\n") + "\n"
+}
+
+/// Names of the axes along and across a facing's normal.
+fn axes(facing: Facing) -> [&'static str; 2] {
+    if facing.axis() == 0 { ["x", "y"] } else { ["y", "x"] }
+}
+
+fn by_facing(count: impl Fn(Facing) -> usize) -> Value {
+    Value::Object(
+        Facing::ALL
+            .map(|facing| (facing.name().to_owned(), json!(count(facing))))
+            .into_iter()
+            .collect::<Map<_, _>>(),
+    )
+}
+
+fn summary(maze: &Maze) -> Value {
+    let point = |point: nalgebra::Vector2<f64>| json!([point.x, point.y]);
+    let ignored = maze.ignored.iter().map(|ignored| {
+        json!({ "reason": ignored.reason, "faces": ignored.n_faces, "area_part": ignored.area_part })
+    });
+    let openings = maze.openings.iter().map(|opening| {
+        json!({ "facing": opening.facing.name(), "offset": opening.offset, "start": opening.start, "end": opening.end })
+    });
+    json!({
+        "planes": by_facing(|facing| maze.planes.n_planes(facing)),
+        "rows": by_facing(|facing| maze.planes.n_rows(facing)),
+        "bounds": { "low": point(maze.bounds.low), "high": point(maze.bounds.high) },
+        "wall_height": maze.wall_height,
+        "up_axis": maze.up_axis.name(),
+        "scale": maze.scale,
+        "ball_radius": maze.ball_radius.units(),
+        "start": point(maze.start),
+        "goal": point(maze.goal),
+        "solvable": maze.solvable,
+        "openings": openings.collect::<Vec<_>>(),
+        "has_floor": maze.has_floor,
+        "doubtful_part": maze.doubtful_part,
+        "ignored": ignored.collect::<Vec<_>>(),
+    })
+}
+
+fn summary_text(maze: &Maze) -> String {
+    let counts = |count: &dyn Fn(Facing) -> usize| {
+        let each = Facing::ALL.map(|facing| format!("{} {}", facing.name(), count(facing)));
+        each.join(", ")
+    };
+    let size = maze.bounds.size();
+    let mut lines = vec![
+        format!("planes       {} ({})", maze.planes.len(), counts(&|facing| maze.planes.n_planes(facing))),
+        format!("rows         {}", counts(&|facing| maze.planes.n_rows(facing))),
+        format!("bounds       {:.3} x {:.3} corridors, walls {:.3} high", size.x, size.y, maze.wall_height),
+        format!("up axis      {} (1 unit of the file is {:.6} corridors)", maze.up_axis.name(), maze.scale),
+        format!("ball radius  {}", maze.ball_radius.units()),
+        format!("start        {:.3}, {:.3}", maze.start.x, maze.start.y),
+        format!("goal         {:.3}, {:.3}", maze.goal.x, maze.goal.y),
+        format!("solvable     {}", maze.solvable),
+    ];
+    lines.extend(maze.openings.iter().map(|opening| {
+        let [across, along] = axes(opening.facing);
+        format!(
+            "opening      at {across} = {:.3}, {along} from {:.3} to {:.3} (closed to the ball by a low bar)",
+            opening.offset, opening.start, opening.end
+        )
+    }));
+    if !maze.has_floor {
+        lines.push("floor        none in the file: one was laid".to_owned());
+    }
+    if 0.0 < maze.doubtful_part {
+        lines.push(format!(
+            "doubtful     on {:.2} % of the plan, for lack of a face, three of four sides decided what is wall",
+            100.0 * maze.doubtful_part
+        ));
+    }
+    lines.extend(maze.ignored.iter().map(|ignored| {
+        let percent = 100.0 * ignored.area_part;
+        format!("ignored      {} faces, {percent:.1} % of the area: {}", ignored.n_faces, ignored.reason)
+    }));
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,102 @@
+//! `maze-app render`: one picture, no window.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::game::Game;
+use crate::source::{ReadArguments, parse_pixel_size};
+use clap::Args;
+use image::ImageFormat;
+use maze_core::Tilt;
+use maze_render::{CAPTURE_FORMAT, Camera, Detail, Gpu, Renderer};
+use std::io::Cursor;
+use std::path::PathBuf;
+
+/// Most ticks that are simulated before the picture: an hour of play.
+const MAX_TICKS: u32 = 120_000;
+
+/// Steepest tilt of a picture (degrees): beyond it the board would be seen from its edge.
+const MAX_TILT_DEGREES: f64 = 45.0;
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  maze-app render my_maze.obj --out picture.png --tilt 8,-5 --ticks 60")]
+pub(crate) struct Arguments {
+    /// A maze (.obj)
+    file: PathBuf,
+    #[command(flatten)]
+    read: ReadArguments,
+    /// Where to write the picture; the name ends in .png
+    #[arg(long, value_name = "PNG")]
+    out: PathBuf,
+    /// Pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_pixel_size, default_value = "1280x720")]
+    size: [u32; 2],
+    /// Degrees by which the board goes down towards +x and towards +y
+    #[arg(long, value_name = "X,Y", value_parser = parse_tilt, default_value = "0,0", allow_hyphen_values = true)]
+    tilt: Tilt,
+    /// Ticks of 0.03 s under that tilt before the picture
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
+    ticks: u32,
+    /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]
+    #[arg(long, value_name = "DIR")]
+    textures: Option<PathBuf>,
+}
+
+/// Two angles; the board turns about the axis across their direction by the length of the pair.
+fn parse_tilt(text: &str) -> Result<Tilt, String> {
+    let expected = || format!("expected X,Y in degrees, such as 8,-5, together at most {MAX_TILT_DEGREES}");
+    let (x, y) = text.split_once(',').ok_or_else(expected)?;
+    let [x, y]: [f64; 2] = [x, y].map(|word| word.trim().parse().unwrap_or(f64::NAN));
+    let degrees = (x * x + y * y).sqrt();
+    if !(degrees <= MAX_TILT_DEGREES) {
+        return Err(expected());
+    }
+    if degrees == 0.0 {
+        return Ok(Tilt::LEVEL);
+    }
+    let tangent = (degrees.to_radians() / 2.0).tan();
+    Ok(Tilt::from_half_tangents(x / degrees * tangent, y / degrees * tangent))
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    files::expect_extension(&arguments.out, "png")?;
+    let textures = files::textures(arguments.textures.as_deref())?;
+    let mut game = Game::new(arguments.read.load(&arguments.file)?)?;
+    for _ in 0..arguments.ticks {
+        game.tick(arguments.tilt)?;
+    }
+    game.show_tilt(arguments.tilt);
+    let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
+    // A picture may take its time on any driver.
+    let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
+    renderer.set_maze(&gpu, &game.maze().surface);
+    let aspect = pixels(arguments.size[0]) / pixels(arguments.size[1]);
+    let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
+    let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
+    let camera = Camera::fitted(game.half_size(), aspect, tilt_rad);
+    let picture =
+        maze_render::capture(&gpu, &mut renderer, arguments.size, &game.scene(&game.pose(1.0, None), camera))
+            .map_err(Failure::bad_input)?;
+    let mut png = Cursor::new(Vec::new());
+    picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
+    files::write_whole(&arguments.out, png.get_ref())
+}
+
+#[allow(clippy::cast_precision_loss, reason = "no picture is 2^24 pixels wide")]
+fn pixels(n: u32) -> f32 {
+    n as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tilt_is_read_in_degrees() {
+        let tilt = parse_tilt("0,-10").unwrap();
+        assert!((tilt.world_from_maze().angle().to_degrees() - 10.0).abs() < 0.01);
+        assert!(tilt.towards_y < 0 && tilt.towards_x == 0);
+        for bad in ["", "1", "a,b", "1,2,3", "nan,0", "40,40", "inf,0"] {
+            assert!(parse_tilt(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Why a command did not do what it was asked: one line and an exit status.
+
+use std::fmt::{Display, Formatter};
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Ends the program with one line on stderr.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// Exit status 1: the input was good, and what was asked for does not hold.
+    NotHeld(String),
+    /// Exit status 2: a file, a flag, the window system or the graphics driver is not usable.
+    BadInput(String),
+}
+
+impl Failure {
+    pub(crate) fn not_held(reason: impl Display) -> Self {
+        Self::NotHeld(reason.to_string())
+    }
+
+    pub(crate) fn bad_input(reason: impl Display) -> Self {
+        Self::BadInput(reason.to_string())
+    }
+
+    /// Bad input, with the file's name in front.
+    pub(crate) fn in_file(path: &Path, reason: impl Display) -> Self {
+        Self::BadInput(format!("{}: {reason}", path.display()))
+    }
+
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::NotHeld(_) => ExitCode::from(1),
+            Self::BadInput(_) => ExitCode::from(2),
+        }
+    }
+}
+
+impl Display for Failure {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        let (Self::NotHeld(reason) | Self::BadInput(reason)) = self;
+        // One line, whatever a library said.
+        formatter.write_str(&reason.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+}

@@ -1,0 +1,115 @@
+//! Files in and out; an output is whole or not there.
+
+use crate::failure::Failure;
+use maze_render::{TextureSet, decode_bmp};
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read: far above any maze, far below memory.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// The whole file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let metadata = fs::metadata(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
+    if metadata.is_dir() {
+        return Err(Failure::in_file(path, "is a directory, expected a file"));
+    }
+    if MAX_BYTES < metadata.len() {
+        return Err(Failure::in_file(
+            path,
+            format!("{} bytes, expected at most {MAX_BYTES}", metadata.len()),
+        ));
+    }
+    fs::read(path).map_err(|error| Failure::in_file(path, plain(&error)))
+}
+
+/// Writes beside the target under a temporary name, then renames.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {}", plain(&error)));
+    let directory = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+        _ => PathBuf::from("."),
+    };
+    let mut file = tempfile::Builder::new();
+    // A temporary file is private by default; the output is an ordinary file.
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let mut file = file.tempfile_in(directory).map_err(failed)?;
+    file.write_all(bytes).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// Prints to stdout. A reader that has seen enough (`| head`) is no error.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::bad_input(format!("cannot print: {}", plain(&error))))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks an output's name before the work is done for it.
+pub(crate) fn expect_extension(path: &Path, wanted: &str) -> Result<(), Failure> {
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted)) {
+        return Ok(());
+    }
+    Err(Failure::in_file(path, format!("expected a name that ends in .{wanted}")))
+}
+
+/// Wall, floor and top from a directory, or the ones that come with the game.
+pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> {
+    let load = |name: &str, built_in: &'static [u8]| {
+        let (shown, bytes) = match directory {
+            Some(directory) => {
+                let path = directory.join(name);
+                (path.display().to_string(), read(&path)?)
+            }
+            None => (name.to_owned(), built_in.to_vec()),
+        };
+        decode_bmp(&shown, &bytes).map_err(Failure::bad_input)
+    };
+    Ok(TextureSet {
+        wall: load("wall.bmp", include_bytes!("../../assets/textures/wall.bmp"))?,
+        floor: load("floor.bmp", include_bytes!("../../assets/textures/floor.bmp"))?,
+        top: load("top.bmp", include_bytes!("../../assets/textures/top.bmp"))?,
+    })
+}
+
+/// The system's words without its number.
+fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    match text.find(" (os error") {
+        Some(end) => text[..end].to_lowercase(),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_replaces_the_old_one_and_leaves_nothing_beside_it() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("out.txt");
+        for text in ["one", "two"] {
+            write_whole(&path, text.as_bytes()).unwrap();
+            assert_eq!(fs::read_to_string(&path).unwrap(), text);
+        }
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+        let missing = directory.path().join("no/out.txt");
+        let error = write_whole(&missing, b"").unwrap_err().to_string();
+        assert!(error.ends_with("out.txt: cannot write: no such file or directory"), "{error}");
+    }
+
+    #[test]
+    fn built_in_textures_are_usable() {
+        let set = textures(None).unwrap();
+        for image in [&set.wall, &set.floor, &set.top] {
+            assert_eq!(image.dimensions(), (512, 512));
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! One maze being played: engine, rules, tilt, and what a frame shows of them.
+
+use crate::failure::Failure;
+use crate::input::TiltControl;
+use maze_core::{Ball, BallSpec, Engine, Event, Maze, Phase, Published, Run, Tilt, gravity};
+use maze_render::{BallView, Camera, Marker, Scene};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+
+/// How strongly the goal shines before and after it is reached.
+const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
+
+/// Owns what a run is made of; knows nothing of windows.
+pub(crate) struct Game {
+    maze: Maze,
+    engine: Box<dyn Engine>,
+    run: Run,
+    tilt: Tilt,
+    previous: Pose,
+    current: Pose,
+}
+
+/// What moves, at one moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose {
+    position: Vector2<f64>,
+    /// Maze from ball: how the pattern has rolled.
+    rotation: UnitQuaternion<f64>,
+    world_from_maze: UnitQuaternion<f64>,
+}
+
+impl Pose {
+    /// Where the ball touches the floor, in the world.
+    pub(crate) fn ball_in_world(&self) -> Vector3<f64> {
+        self.world_from_maze * self.position.push(0.0)
+    }
+
+    fn at_start(maze: &Maze) -> Self {
+        let level = UnitQuaternion::identity();
+        Self { position: maze.start, rotation: level, world_from_maze: level }
+    }
+}
+
+impl Game {
+    pub(crate) fn new(maze: Maze) -> Result<Self, Failure> {
+        let spec = BallSpec { radius: maze.ball_radius, ..BallSpec::default() };
+        let engine =
+            Published::new(maze.planes.clone(), spec, Ball::at(maze.start)).map_err(Failure::bad_input)?;
+        let start = Pose::at_start(&maze);
+        let run = Run::new(&maze);
+        Ok(Self { maze, engine: Box::new(engine), run, tilt: Tilt::LEVEL, previous: start, current: start })
+    }
+
+    pub(crate) fn maze(&self) -> &Maze {
+        &self.maze
+    }
+
+    pub(crate) fn phase(&self) -> Phase {
+        self.run.phase()
+    }
+
+    pub(crate) fn n_ticks(&self) -> u64 {
+        self.run.n_ticks()
+    }
+
+    pub(crate) fn tick_s(&self) -> f64 {
+        self.engine.tick_s()
+    }
+
+    pub(crate) fn ball(&self) -> Ball {
+        self.engine.ball()
+    }
+
+    pub(crate) fn tilt(&self) -> Tilt {
+        self.tilt
+    }
+
+    /// Ball to the start, board level, clock to zero.
+    pub(crate) fn restart(&mut self) -> Result<(), Failure> {
+        self.engine.place(Ball::at(self.maze.start)).map_err(Failure::bad_input)?;
+        self.run = Run::new(&self.maze);
+        self.tilt = Tilt::LEVEL;
+        self.current = Pose::at_start(&self.maze);
+        self.previous = self.current;
+        Ok(())
+    }
+
+    /// Turns the board without simulating: for a picture of the start.
+    pub(crate) fn show_tilt(&mut self, tilt: Tilt) {
+        self.tilt = tilt;
+        self.current.world_from_maze = tilt.world_from_maze();
+        self.previous.world_from_maze = self.current.world_from_maze;
+    }
+
+    /// One tick under a tilt. Once the goal is reached the ball rests and only the board moves.
+    pub(crate) fn tick(&mut self, tilt: Tilt) -> Result<Vec<Event>, Failure> {
+        self.tilt = tilt;
+        let world_from_maze = tilt.world_from_maze();
+        self.previous = self.current;
+        self.current.world_from_maze = world_from_maze;
+        if self.run.phase() == Phase::Finished {
+            return Ok(Vec::new());
+        }
+        let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
+        let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
+        let position = self.engine.ball().position;
+        let way = position - self.previous.position;
+        self.current.position = position;
+        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        Ok(self.run.observe(tilt, position, &tick).collect())
+    }
+
+    /// Between the last two ticks, `alpha` of the way. A board in the player's hand is shown where the hand is.
+    pub(crate) fn pose(&self, alpha: f64, held: Option<&TiltControl>) -> Pose {
+        let (a, b) = (&self.previous, &self.current);
+        Pose {
+            position: a.position + (b.position - a.position) * alpha,
+            rotation: a.rotation.nlerp(&b.rotation, alpha),
+            world_from_maze: match held {
+                Some(control) => control.tilt().world_from_maze(),
+                None => a.world_from_maze.nlerp(&b.world_from_maze, alpha),
+            },
+        }
+    }
+
+    /// A frame, as plain data.
+    pub(crate) fn scene(&self, pose: &Pose, camera: Camera) -> Scene {
+        let radius = self.maze.ball_radius.units();
+        let marker = |position: Vector2<f64>| Marker {
+            position: position.map(to_f32).into(),
+            radius: to_f32(self.maze.goal_radius),
+        };
+        Scene {
+            camera,
+            world_from_maze: pose.world_from_maze.cast(),
+            ball: BallView {
+                position: pose.position.push(radius).map(to_f32).into(),
+                radius: to_f32(radius),
+                rotation: pose.rotation.cast(),
+            },
+            start: marker(self.maze.start),
+            goal: marker(self.maze.goal),
+            goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
+        }
+    }
+
+    /// Half width, half depth and wall height: what the camera has to show.
+    pub(crate) fn half_size(&self) -> [f32; 3] {
+        let size = self.maze.bounds.size();
+        [size.x / 2.0, size.y / 2.0, self.maze.wall_height].map(to_f32)
+    }
+}
+
+/// The turn of a ball that rolls along `way` without slipping.
+fn rolled(way: Vector2<f64>, radius: f64) -> UnitQuaternion<f64> {
+    // About the horizontal axis on the left of the way: normal x way.
+    UnitQuaternion::from_scaled_axis(Vector3::new(-way.y, way.x, 0.0) / radius)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "drawing needs no more than f32")]
+pub(crate) fn to_f32(value: f64) -> f32 {
+    value as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clock::Clock;
+    use maze_core::{AssembleOptions, extrude, layout};
+
+    fn game() -> Game {
+        let mesh = extrude::extrude(&layout::recursive_backtracker(6, 5, 11).unwrap());
+        Game::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap()).unwrap()
+    }
+
+    /// Tilts that change with the tick, as a player's would.
+    fn tilt_at(tick: u32) -> Tilt {
+        let wave = |period: u32| f64::from(tick % period) / f64::from(period) - 0.5;
+        Tilt::from_half_tangents(0.3 * wave(97), 0.3 * wave(61))
+    }
+
+    #[test]
+    fn motion_is_equal_at_30_60_and_240_frames_a_second() {
+        let after_300_ticks = |frames_per_s: u32| {
+            let (mut game, mut clock, mut n_ticks) = (game(), Clock::new(Published::TICK_S), 0);
+            while n_ticks < 300 {
+                for _ in 0..clock.advance(1.0 / f64::from(frames_per_s)) {
+                    if n_ticks < 300 {
+                        game.tick(tilt_at(n_ticks)).unwrap();
+                        n_ticks += 1;
+                    }
+                }
+            }
+            game.ball()
+        };
+        let at_60 = after_300_ticks(60);
+        assert_ne!(at_60.position, game().maze().start);
+        assert_eq!(after_300_ticks(30), at_60);
+        assert_eq!(after_300_ticks(240), at_60);
+    }
+
+    #[test]
+    fn drawing_moves_evenly_from_one_tick_to_the_next() {
+        let mut game = game();
+        for tick in 0..50 {
+            game.tick(tilt_at(tick)).unwrap();
+        }
+        let camera = Camera { target: [0.0; 3], distance: 10.0 };
+        let x_at = |alpha| game.scene(&game.pose(alpha, None), camera).ball.position[0];
+        assert!((x_at(0.5) - (x_at(0.0) + x_at(1.0)) / 2.0).abs() < 1.0e-6);
+        assert_eq!(x_at(1.0), to_f32(game.ball().position.x));
+    }
+
+    #[test]
+    fn a_ball_rolls_once_around_over_its_circumference() {
+        let radius = 0.35;
+        let quarter = rolled(Vector2::new(std::f64::consts::FRAC_PI_2 * radius, 0.0), radius);
+        // Rolling towards +x brings the top of the ball to the front.
+        assert!((quarter * Vector3::z() - Vector3::x()).norm() < 1.0e-12);
+    }
+
+    #[test]
+    fn restart_puts_the_ball_back() {
+        let mut game = game();
+        for tick in 0..50 {
+            game.tick(tilt_at(tick)).unwrap();
+        }
+        assert_ne!(game.ball().position, game.maze().start);
+        game.restart().unwrap();
+        assert_eq!(game.ball(), Ball::at(game.maze().start));
+        assert_eq!((game.phase(), game.n_ticks()), (Phase::Ready, 0));
+    }
+}

@@ -1,0 +1,147 @@
+//! Clock, maze, keys, and the goal.
+
+use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
+use maze_core::Phase;
+
+const INK: Color32 = Color32::from_rgb(245, 238, 226);
+const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
+const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+const GLASS: Color32 = Color32::from_rgba_premultiplied(18, 13, 9, 190);
+
+/// Distance of the panels from the window's edge (points).
+const MARGIN: f32 = 14.0;
+
+/// Below this width or height (points) only the clock is shown.
+const SMALL: [f32; 2] = [520.0, 300.0];
+
+const KEYS: [(&str, &str); 8] = [
+    ("drag", "tilt"),
+    ("arrows, W A X D", "tilt"),
+    ("T", "level"),
+    ("B / S, wheel", "zoom in / out"),
+    ("R", "restart"),
+    ("N", "new maze"),
+    ("H", "hide keys"),
+    ("Esc", "quit"),
+];
+
+/// What is on screen beside the maze.
+pub(crate) struct Hud<'a> {
+    pub(crate) phase: Phase,
+    pub(crate) n_ticks: u64,
+    pub(crate) tick_s: f64,
+    pub(crate) title: &'a str,
+    /// Whether N brings another maze.
+    pub(crate) has_next: bool,
+    pub(crate) help: bool,
+}
+
+/// Once for a context: dark glass, warm text.
+pub(super) fn style(context: &Context) {
+    context.set_theme(egui::Theme::Dark);
+    context.all_styles_mut(|style| {
+        style.visuals.override_text_color = Some(INK);
+        style.interaction.selectable_labels = false;
+    });
+}
+
+fn panel() -> Frame {
+    Frame::new().fill(GLASS).corner_radius(8).inner_margin(Margin::symmetric(14, 8))
+}
+
+impl Hud<'_> {
+    pub(super) fn show(&self, ui: &mut Ui) {
+        let screen = ui.ctx().content_rect();
+        let is_small = screen.width() < SMALL[0] || screen.height() < SMALL[1];
+        self.clock(ui.ctx());
+        if self.phase == Phase::Finished {
+            self.goal_reached(ui.ctx());
+        }
+        if is_small {
+            return;
+        }
+        area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
+            ui.label(RichText::new(self.title).color(QUIET_INK));
+        });
+        if self.help {
+            self.keys(ui.ctx());
+        }
+    }
+
+    fn seconds(&self) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "2^53 ticks are longer than anybody plays")]
+        let n_ticks = self.n_ticks as f64;
+        n_ticks * self.tick_s
+    }
+
+    fn clock(&self, context: &Context) {
+        area(context, "clock", Align2::LEFT_TOP, vec2(MARGIN, MARGIN), |ui| {
+            ui.horizontal(|ui| {
+                ui.label(RichText::new(clock_text(self.seconds())).font(FontId::monospace(24.0)));
+                ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
+            });
+            if self.phase == Phase::Ready {
+                ui.label(RichText::new("tilt the board to start").color(GOLD));
+            }
+        });
+    }
+
+    fn keys(&self, context: &Context) {
+        area(context, "keys", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
+            ui.horizontal_wrapped(|ui| {
+                for (key, effect) in KEYS.into_iter().filter(|(key, _)| self.has_next || *key != "N") {
+                    ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
+                    ui.label(RichText::new(effect).color(QUIET_INK).size(13.0));
+                    ui.add_space(8.0);
+                }
+            });
+        });
+    }
+
+    fn goal_reached(&self, context: &Context) {
+        let frame = panel().inner_margin(Margin::symmetric(36, 22)).stroke(Stroke::new(1.5, GOLD));
+        egui::Area::new(egui::Id::unique("goal")).anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0)).show(
+            context,
+            |ui| {
+                frame.show(ui, |ui| {
+                    ui.vertical_centered(|ui| {
+                        ui.label(RichText::new("Goal reached").size(30.0).color(GOLD));
+                        ui.label(RichText::new(clock_text(self.seconds())).font(FontId::monospace(40.0)));
+                        ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
+                        ui.add_space(6.0);
+                        let next =
+                            if self.has_next { "R  play again      N  new maze" } else { "R  play again" };
+                        ui.label(RichText::new(next).size(16.0));
+                    });
+                });
+            },
+        );
+    }
+}
+
+fn area(context: &Context, name: &str, anchor: Align2, offset: egui::Vec2, add: impl FnOnce(&mut Ui)) {
+    egui::Area::new(egui::Id::unique(name)).anchor(anchor, offset).interactable(false).show(context, |ui| {
+        panel().show(ui, add);
+    });
+}
+
+/// Minutes, seconds and hundredths.
+fn clock_text(seconds: f64) -> String {
+    // Rounded before it is split, so that 59.999 does not read 0:60.00.
+    let hundredths = (seconds * 100.0).round();
+    let minutes = (hundredths / 6000.0).floor();
+    format!("{minutes}:{:05.2}", (hundredths - minutes * 6000.0) / 100.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clock_shows_minutes_seconds_hundredths() {
+        assert_eq!(clock_text(0.0), "0:00.00");
+        assert_eq!(clock_text(12.34), "0:12.34");
+        assert_eq!(clock_text(59.999), "1:00.00");
+        assert_eq!(clock_text(754.5), "12:34.50");
+    }
+}

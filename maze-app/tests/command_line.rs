@@ -1,0 +1,234 @@
+//! The command line: what it prints, what it refuses, and that nothing is left half-written.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+const DEFAULT_MAZE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/mazes/default.obj");
+
+fn maze_app(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_maze-app"));
+    command.args(arguments).env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    command
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// Runs, and expects exit status 2 and one line on stderr that holds `expected`.
+fn refused(command: &mut Command, expected: &str) {
+    let output = command.output().unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{command:?}: {stderr}");
+    assert_eq!(stderr.lines().count(), 1, "{command:?}: {stderr}");
+    assert!(stderr.starts_with("maze-app: "), "{stderr}");
+    assert!(stderr.contains(expected), "expected `{expected}` in: {stderr}");
+    assert!(output.stdout.is_empty(), "{command:?}");
+}
+
+/// A directory with one file in it.
+fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, String) {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join(name);
+    std::fs::write(&path, bytes).unwrap();
+    let path = path.display().to_string();
+    (directory, path)
+}
+
+fn names_in(directory: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(directory).unwrap();
+    entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect()
+}
+
+#[test]
+fn info_says_what_was_found() {
+    let output = maze_app(&["info", DEFAULT_MAZE, "--json"]).output().unwrap();
+    assert!(output.status.success());
+    let info: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(info["planes"], serde_json::json!({ "+x": 37, "-x": 36, "+y": 37, "-y": 36 }));
+    assert_eq!(info["up_axis"], "z");
+    assert_eq!((&info["scale"], &info["ball_radius"]), (&serde_json::json!(1.0), &serde_json::json!(0.35)));
+    assert_eq!((&info["solvable"], &info["has_floor"]), (&serde_json::json!(true), &serde_json::json!(true)));
+    let text = stdout(&maze_app(&["info", DEFAULT_MAZE]).output().unwrap());
+    assert!(text.starts_with("planes       146 (+x 37, -x 36, +y 37, -y 36)\n"), "{text}");
+}
+
+#[test]
+fn info_prints_the_sorted_table_of_a_group() {
+    let output = maze_app(&["info", DEFAULT_MAZE, "--planes", "-x", "--json"]).output().unwrap();
+    let table: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows: Vec<[f64; 3]> = serde_json::from_value(table["planes"].clone()).unwrap();
+    assert_eq!(rows.len(), 36);
+    assert!(rows.windows(2).all(|pair| pair[0] < pair[1]), "sorted by offset, start, end");
+    let text = stdout(&maze_app(&["info", DEFAULT_MAZE, "--planes", "-x"]).output().unwrap());
+    assert_eq!(text.lines().count(), 36 + 2);
+}
+
+#[test]
+fn a_maze_without_a_way_is_told_by_exit_status_1() {
+    // Two rooms with a wall between them and a door to the outside each.
+    let wall = |n: usize, [x0, y0, x1, y1]: [f64; 4]| {
+        let corner = |k: usize| {
+            let pick = |bit: usize, low: f64, high: f64| if k >> bit & 1 == 0 { low } else { high };
+            format!("v {} {} {}\n", pick(0, x0, x1), pick(1, y0, y1), pick(2, 0.0, 1.0))
+        };
+        let quads = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+        let face = |quad: [usize; 4]| format!("f {}\n", quad.map(|k| (k + 8 * n).to_string()).join(" "));
+        (0..8).map(corner).chain(quads.map(face)).collect::<String>()
+    };
+    let walls = [[0.0, 0.0, 9.0, 1.0], [0.0, 2.0, 9.0, 3.0], [4.0, 1.0, 5.0, 2.0]];
+    let text: String = walls.into_iter().enumerate().map(|(n, rectangle)| wall(n, rectangle)).collect();
+    let (_directory, path) = file("rooms.obj", text.as_bytes());
+    let output = maze_app(&["info", &path]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("solvable     false"));
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert!(stderr.ends_with("rooms.obj: no way leads from start to goal\n"), "{stderr}");
+}
+
+#[test]
+fn generate_gives_the_same_file_for_the_same_seed() {
+    let directory = tempfile::tempdir().unwrap();
+    let make = |name: &str, seed: &str| {
+        let path = directory.path().join(name);
+        let arguments = ["generate", "--size", "8x5", "--seed", seed, "--out", path.to_str().unwrap()];
+        assert!(maze_app(&arguments).status().unwrap().success());
+        std::fs::read(path).unwrap()
+    };
+    assert_eq!(make("a.obj", "7"), make("b.obj", "7"));
+    assert_ne!(make("a.obj", "7"), make("c.obj", "8"));
+}
+
+#[test]
+fn the_default_maze_is_what_its_first_line_says() {
+    let text = std::fs::read_to_string(DEFAULT_MAZE).unwrap();
+    let arguments = text.lines().next().unwrap().strip_prefix("# maze-app ").unwrap();
+    let (directory, path) = file("other.txt", b"");
+    let out = Path::new(&path).with_file_name("default.obj");
+    let mut arguments: Vec<&str> = arguments.split(' ').collect();
+    arguments.extend(["--out", out.to_str().unwrap()]);
+    assert!(maze_app(&arguments).status().unwrap().success());
+    assert_eq!(std::fs::read_to_string(out).unwrap(), text);
+    drop(directory);
+}
+
+#[test]
+fn help_is_complete_and_has_examples() {
+    for command in ["play", "info", "generate", "render"] {
+        let output = maze_app(&[command, "--help"]).output().unwrap();
+        assert!(output.status.success());
+        let text = stdout(&output);
+        assert!(text.contains("Example"), "{command}: {text}");
+    }
+    let text = stdout(&maze_app(&["--help"]).output().unwrap());
+    for word in ["play", "info", "generate", "render", "Exit status"] {
+        assert!(text.contains(word), "{text}");
+    }
+}
+
+#[test]
+fn a_reader_that_stops_early_is_no_error() {
+    let mut child = maze_app(&["info", DEFAULT_MAZE, "--planes", "+x"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn bad_usage_is_one_line() {
+    refused(&mut maze_app(&["--frobnicate"]), "unexpected argument '--frobnicate'");
+    refused(&mut maze_app(&["play", "--size", "0x"]), "expected WxH in cells");
+    refused(&mut maze_app(&["play", "--size", "1x1"]), "expected at least 2 cells");
+    refused(&mut maze_app(&["play", "--engine", "warp"]), "invalid value 'warp'");
+    refused(&mut maze_app(&["play", "--max-tilt", "90"]), "expected 1 to 45 degrees");
+    refused(&mut maze_app(&["play", "--exit-after", "nan"]), "expected a number of seconds");
+    refused(&mut maze_app(&["play", DEFAULT_MAZE, "--seed", "3"]), "cannot be used with");
+    refused(&mut maze_app(&["info"]), "required arguments were not provided");
+    refused(&mut maze_app(&["info", DEFAULT_MAZE, "--ball-radius=-1"]), "expected a number greater than 0");
+    refused(&mut maze_app(&["info", DEFAULT_MAZE, "--planes", "up"]), "expected +x, -x, +y or -y");
+    refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--size", "0x9"]), "at least 1x1");
+    refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.jpg"]), "expected a name that ends in .png");
+    refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--tilt", "99,0"]), "in degrees");
+}
+
+#[test]
+fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
+    let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    let slanted = format!("{square}v 0 0 1\nf 1 2 3 4\nf 2 3 5\n");
+    let cases: [(&str, &[u8], &str); 9] = [
+        ("empty.obj", b"", "empty.obj: the file is empty"),
+        ("binary.obj", b"\x7fELF\0\0", "binary.obj: not a text file"),
+        ("vertices_only.obj", square.as_bytes(), "no faces: expected walls"),
+        ("range.obj", &[square.as_bytes(), b"f 1 2 9\n"].concat(), "line 5: face uses vertex 9, but only 4"),
+        ("cut.obj", &[square.as_bytes(), b"v 1 2"].concat(), "line 5: expected `v X Y Z`"),
+        ("words.obj", b"v one two three\n", "line 1: expected `v X Y Z`"),
+        ("flat.obj", &[square.as_bytes(), b"f 1 2 3 4\n"].concat(), "no walls"),
+        ("slanted.obj", slanted.as_bytes(), "not a maze of axis-aligned walls"),
+        ("maze.stl", square.as_bytes(), "expected a name that ends in .obj"),
+    ];
+    for (name, bytes, expected) in cases {
+        let (directory, path) = file(name, bytes);
+        let out = directory.path().join("out.png").display().to_string();
+        refused(&mut maze_app(&["info", &path]), expected);
+        refused(&mut maze_app(&["play", &path]), expected);
+        refused(&mut maze_app(&["render", &path, "--out", &out]), expected);
+        assert_eq!(names_in(directory.path()), [name], "nothing was written");
+    }
+    refused(&mut maze_app(&["info", "/no/such/maze.obj"]), "/no/such/maze.obj: no such file or directory");
+    refused(&mut maze_app(&["info", "/"]), "/: is a directory");
+}
+
+#[test]
+fn truncated_maze_files_are_refused() {
+    let whole = std::fs::read(DEFAULT_MAZE).unwrap();
+    for part in [2, 3, 5, 10] {
+        let (_directory, path) = file("cut.obj", &whole[..whole.len() * (part - 1) / part]);
+        refused(&mut maze_app(&["info", &path]), "cut off");
+    }
+}
+
+#[test]
+fn bad_textures_are_refused() {
+    let bmp = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/textures/wall.bmp")).unwrap();
+    let cases: [(&[u8], &str); 3] =
+        [(b"not a picture", "wall.bmp"), (b"", "wall.bmp"), (&bmp[..1000], "wall.bmp")];
+    for (bytes, expected) in cases {
+        let (directory, path) = file("wall.bmp", bytes);
+        let textures = Path::new(&path).parent().unwrap().display().to_string();
+        let out = directory.path().join("out.png").display().to_string();
+        refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", &out, "--textures", &textures]), expected);
+        refused(&mut maze_app(&["play", "--textures", &textures]), expected);
+        assert_eq!(names_in(directory.path()), ["wall.bmp"], "nothing was written");
+    }
+    let (directory, _) = file("readme.txt", b"");
+    let textures = directory.path().display().to_string();
+    refused(&mut maze_app(&["play", "--textures", &textures]), "wall.bmp: no such file or directory");
+}
+
+#[test]
+fn no_display_and_no_driver_are_one_line() {
+    let mut play = maze_app(&["play"]);
+    refused(
+        play.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET"),
+        "no display",
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("out.png").display().to_string();
+    let mut render = maze_app(&["render", DEFAULT_MAZE, "--out", &out]);
+    let no_driver = [("WGPU_BACKEND", "vulkan"), ("VK_DRIVER_FILES", "/none"), ("VK_ICD_FILENAMES", "/none")];
+    refused(render.envs(no_driver), "no graphics adapter found");
+    assert!(names_in(directory.path()).is_empty(), "nothing was written");
+}
+
+#[test]
+fn an_unwritable_output_is_refused() {
+    refused(
+        &mut maze_app(&["generate", "--seed", "1", "--out", "/no/such/directory/a.obj"]),
+        "/no/such/directory/a.obj: cannot write: no such file or directory",
+    );
+}

@@ -1,0 +1,102 @@
+//! `maze-app render`: the same picture each time, and the one we looked at.
+//!
+//! After an intended change: `UPDATE_GOLDENS=1 cargo test -p maze-app --test pictures`, then look at tests/golden/*.png.
+
+use image::RgbImage;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const DEFAULT_MAZE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/mazes/default.obj");
+const GOLDENS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");
+
+/// Two pictures are the same when few pixels differ by more than a rounding of colour: drivers of another version may
+/// place an edge a subpixel elsewhere, and an edge pixel then changes by up to a wall's contrast.
+const PIXEL_TOLERANCE: u8 = 12;
+const MAX_DIFFERENT_PART: f64 = 0.001;
+
+/// Goldens are small: large enough to recognise a brick, small enough to keep.
+const SIZE: &str = "480x270";
+
+fn render(arguments: &[&str]) -> Vec<u8> {
+    render_sized(SIZE, arguments)
+}
+
+fn render_sized(size: &str, arguments: &[&str]) -> Vec<u8> {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("out.png");
+    let output = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+        .args(["render", DEFAULT_MAZE, "--size", size, "--out"])
+        .arg(&out)
+        .args(arguments)
+        .env("XDG_RUNTIME_DIR", directory.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    std::fs::read(out).unwrap()
+}
+
+fn decoded(png: &[u8]) -> RgbImage {
+    image::load_from_memory(png).unwrap().into_rgb8()
+}
+
+/// Part of the pixels that differ, and a picture of where.
+fn difference(a: &RgbImage, b: &RgbImage) -> (f64, RgbImage) {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let mut where_different = RgbImage::new(a.width(), a.height());
+    let mut n_different = 0_u32;
+    for (x, y, pixel) in where_different.enumerate_pixels_mut() {
+        let [a, b] = [a.get_pixel(x, y), b.get_pixel(x, y)];
+        *pixel = image::Rgb([0, 1, 2].map(|channel| a[channel].abs_diff(b[channel])));
+        n_different += u32::from(pixel.0.iter().any(|value| PIXEL_TOLERANCE < *value));
+    }
+    (f64::from(n_different) / f64::from(a.width() * a.height()), where_different)
+}
+
+fn expect_golden(name: &str, arguments: &[&str]) {
+    let png = render(arguments);
+    let path = Path::new(GOLDENS).join(format!("{name}.png"));
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        std::fs::write(&path, &png).unwrap();
+    }
+    let golden = decoded(&std::fs::read(&path).unwrap());
+    let (part, where_different) = difference(&decoded(&png), &golden);
+    if MAX_DIFFERENT_PART < part {
+        let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+        std::fs::write(target.join(format!("{name}.now.png")), &png).unwrap();
+        where_different.save(target.join(format!("{name}.difference.png"))).unwrap();
+        panic!("{:.2} % of {name} differs; see {}", 100.0 * part, target.display());
+    }
+}
+
+#[test]
+fn the_default_maze_looks_as_it_should() {
+    expect_golden("default", &[]);
+}
+
+#[test]
+fn a_tilted_maze_with_the_ball_on_its_way_looks_as_it_should() {
+    expect_golden("tilted", &["--tilt", "12,-7", "--ticks", "25"]);
+}
+
+#[test]
+fn the_same_command_gives_the_same_bytes() {
+    assert_eq!(render(&["--tilt", "5,5"]), render(&["--tilt", "5,5"]));
+}
+
+#[test]
+fn the_tolerance_notices_a_degree_of_tilt_and_a_ball_that_has_moved() {
+    let picture = decoded(&render(&[]));
+    let (tilted, _) = difference(&picture, &decoded(&render(&["--tilt", "1,0"])));
+    assert!(MAX_DIFFERENT_PART < tilted, "{tilted}");
+    let still = decoded(&render(&["--tilt", "12,-7", "--ticks", "25"]));
+    let (moved, _) = difference(&still, &decoded(&render(&["--tilt", "12,-7", "--ticks", "28"])));
+    assert!(MAX_DIFFERENT_PART < moved, "{moved}");
+}
+
+#[test]
+fn any_size_and_aspect_is_drawn() {
+    for size in ["1x1", "31x700", "900x40"] {
+        let picture = decoded(&render_sized(size, &[]));
+        assert_eq!(format!("{}x{}", picture.width(), picture.height()), size);
+    }
+}

@@ -1,0 +1,262 @@
+//! The game in a real window: Xvfb, a window manager, the software driver, and xdotool's hands on mouse and keys.
+//!
+//! Needs Xvfb, xdotool, openbox and wmctrl, which `./check` installs; without them the test fails and says so.
+
+use serde::Deserialize;
+use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// Long enough for a software driver on a busy machine; a condition that holds ends the wait at once.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// The default limit of the tilt, and the rounding of one quantised step.
+const MAX_TILT_DEGREES: f64 = 20.0 + 0.01;
+
+#[derive(Clone, Debug, Deserialize)]
+struct State {
+    tick: u64,
+    orientation: [f64; 4],
+    position: [f64; 2],
+    velocity: [f64; 2],
+    camera_distance: f64,
+    phase: String,
+    clock_ticks: u64,
+}
+
+impl State {
+    fn tilt_degrees(&self) -> f64 {
+        2.0 * self.orientation[0].abs().min(1.0).acos().to_degrees()
+    }
+
+    fn speed(&self) -> f64 {
+        self.velocity[0].hypot(self.velocity[1])
+    }
+}
+
+/// A child process that does not outlive the test.
+struct Killed(Child);
+
+impl Drop for Killed {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+fn start(command: &mut Command) -> Killed {
+    let name = command.get_program().to_string_lossy().into_owned();
+    Killed(
+        command.spawn().unwrap_or_else(|error| panic!("{name}: {error}; ./check installs what tests need")),
+    )
+}
+
+/// A screen of its own with the game on it.
+struct Session {
+    game: Killed,
+    _window_manager: Killed,
+    _screen: Killed,
+    display: String,
+    log: PathBuf,
+    _directory: tempfile::TempDir,
+    window: String,
+}
+
+impl Session {
+    fn open(arguments: &[&str]) -> Self {
+        let directory = tempfile::tempdir().unwrap();
+        let mut screen = start(
+            Command::new("Xvfb")
+                .args(["-displayfd", "1", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
+                .stdout(Stdio::piped())
+                .stderr(Stdio::null()),
+        );
+        // Xvfb picks a free display and prints its number when it is ready.
+        let mut number = String::new();
+        BufReader::new(screen.0.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        let display = format!(":{}", number.trim());
+        let window_manager = start(
+            Command::new("openbox").env("DISPLAY", &display).stdout(Stdio::null()).stderr(Stdio::null()),
+        );
+        let log = directory.path().join("state.jsonl");
+        let game = start(
+            Command::new(env!("CARGO_BIN_EXE_maze-app"))
+                .args(["play", "--seed", "5", "--size", "6x4", "--state-log"])
+                .arg(&log)
+                .args(arguments)
+                .env("DISPLAY", &display)
+                .env_remove("WAYLAND_DISPLAY")
+                .env("XDG_RUNTIME_DIR", directory.path()),
+        );
+        let mut session = Self {
+            game,
+            _window_manager: window_manager,
+            _screen: screen,
+            display,
+            log,
+            _directory: directory,
+            window: String::new(),
+        };
+        session.wait_for("the first ticks", |state| 3 <= state.tick);
+        session.window = session.tool("xdotool", &["search", "--onlyvisible", "--name", "^Maze"]);
+        session.xdotool(&["windowfocus", "--sync", &session.window]);
+        session
+    }
+
+    fn tool(&self, program: &str, arguments: &[&str]) -> String {
+        let output = Command::new(program).args(arguments).env("DISPLAY", &self.display).output();
+        let output = output.unwrap_or_else(|error| panic!("{program}: {error}; ./check installs it"));
+        assert!(output.status.success(), "{program} {arguments:?}: {output:?}");
+        String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned()
+    }
+
+    fn xdotool(&self, arguments: &[&str]) {
+        self.tool("xdotool", arguments);
+    }
+
+    fn states(&self) -> Vec<State> {
+        let text = std::fs::read_to_string(&self.log).unwrap_or_default();
+        let whole_lines = text.rsplit_once('\n').map_or("", |(whole, _)| whole);
+        whole_lines.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+
+    fn last(&self) -> State {
+        self.states().pop().expect("a state has been logged")
+    }
+
+    fn wait_for(&mut self, what: &str, condition: impl Fn(&State) -> bool) -> State {
+        let begun = Instant::now();
+        loop {
+            let last = self.states().pop();
+            if let Some(state) = last.clone().filter(&condition) {
+                return state;
+            }
+            if let Some(status) = self.game.0.try_wait().unwrap() {
+                panic!("the game ended ({status}) while waiting for {what}");
+            }
+            assert!(begun.elapsed() < PATIENCE, "waited in vain for {what}; last: {last:?}");
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+
+    /// Ticks go on after now.
+    fn expect_alive(&mut self, what: &str) {
+        let tick = self.last().tick;
+        self.wait_for(what, |state| tick + 5 <= state.tick);
+    }
+
+    fn exit_status(&mut self) -> ExitStatus {
+        let begun = Instant::now();
+        loop {
+            if let Some(status) = self.game.0.try_wait().unwrap() {
+                return status;
+            }
+            assert!(begun.elapsed() < PATIENCE, "the game does not end");
+            std::thread::sleep(Duration::from_millis(30));
+        }
+    }
+}
+
+#[test]
+fn mouse_and_keys_play_the_game() {
+    let mut session = Session::open(&[]);
+    let start = session.last();
+    assert_eq!((start.phase.as_str(), start.clock_ticks), ("ready", 0));
+    assert_eq!(start.orientation, [1.0, 0.0, 0.0, 0.0]);
+
+    // Drag to the right: the right side goes down, and a ball that is free to move runs there.
+    let window = session.window.clone();
+    session.xdotool(&["mousemove", "--window", &window, "500", "360", "mousedown", "1"]);
+    session.xdotool(&["mousemove_relative", "60", "0"]);
+    let dragged = session.wait_for("a drag to tilt the board", |state| 3.0 < state.tilt_degrees());
+    assert!(0.0 < dragged.orientation[2], "down towards +x is a turn about +y: {dragged:?}");
+    assert_eq!(dragged.phase, "playing");
+
+    // Drag in a circle far beyond the limit: it holds all the way round, and downhill the ball gets fast.
+    for (x, y) in [(400, 0), (0, 400), (-800, 0), (0, -800), (800, 0)] {
+        session.xdotool(&["mousemove_relative", "--", &x.to_string(), &y.to_string()]);
+        std::thread::sleep(Duration::from_millis(150));
+    }
+    session.wait_for("the limit to be nearly reached", |state| 18.0 < state.tilt_degrees());
+    let states = session.states();
+    let steepest = states.iter().map(State::tilt_degrees).fold(0.0, f64::max);
+    assert!(steepest <= MAX_TILT_DEGREES, "{steepest} degrees");
+    for pair in states.windows(2).filter(|pair| pair[0].speed() == 0.0 && pair[1].speed() != 0.0) {
+        let [_, x, y, _] = pair[1].orientation.map(|part| part * 2.0);
+        let downhill = pair[1].velocity[0] * y - pair[1].velocity[1] * x;
+        assert!(0.0 < downhill, "from rest the ball moves downhill: {:?}", pair[1]);
+    }
+    assert!(states.iter().any(|state| 0.5 < state.speed()), "the ball accelerates");
+    session.xdotool(&["mouseup", "1"]);
+
+    session.xdotool(&["key", "t"]);
+    session.wait_for("T to level the board", |state| state.orientation == [1.0, 0.0, 0.0, 0.0]);
+
+    session.xdotool(&["key", "r"]);
+    let restarted = session.wait_for("R to restart", |state| state.clock_ticks == 0);
+    assert_eq!((restarted.position, restarted.velocity), (start.position, [0.0, 0.0]));
+
+    session.xdotool(&["keydown", "Up"]);
+    let up = session.wait_for("an arrow key to tilt", |state| 10.0 < state.tilt_degrees());
+    assert!(up.orientation[1] < 0.0, "down towards +y is a turn about -x: {up:?}");
+    session.xdotool(&["keyup", "Up"]);
+    session.wait_for("the board to come back", |state| state.orientation == [1.0, 0.0, 0.0, 0.0]);
+    session.xdotool(&["key", "d"]);
+    session.wait_for("a tap on D to be felt", |state| 0.5 < state.tilt_degrees());
+
+    session.xdotool(&["key", "Escape"]);
+    assert!(session.exit_status().success());
+}
+
+#[test]
+fn zoom_keys_move_the_camera_within_limits() {
+    let mut session = Session::open(&[]);
+    let whole = session.last().camera_distance;
+    session.xdotool(&["key", "b"]);
+    session.wait_for("B to zoom in", |state| state.camera_distance < 0.95 * whole);
+    session.xdotool(&["key", "s", "s"]);
+    session.wait_for("S to zoom out", |state| 1.05 * whole < state.camera_distance);
+    session.xdotool(&["key", "--repeat", "40", "--delay", "15", "b"]);
+    let near = session.wait_for("the near limit", |state| state.camera_distance < 0.17 * whole);
+    session.expect_alive("zooming in");
+    assert!(0.16 * whole < near.camera_distance.min(session.last().camera_distance));
+    session.xdotool(&["key", "--repeat", "40", "--delay", "15", "s"]);
+    session.wait_for("the far limit", |state| 1.95 * whole < state.camera_distance);
+    session.expect_alive("zooming out");
+    assert!(session.last().camera_distance < 2.05 * whole);
+    session.tool("wmctrl", &["-c", "Maze"]);
+    assert!(session.exit_status().success(), "closing the window is a good end");
+}
+
+#[test]
+fn tiny_minimised_and_restored_windows_stay_alive() {
+    let mut session = Session::open(&[]);
+    let window = session.window.clone();
+    for (width, height) in [("1", "1"), ("300", "60"), ("60", "700"), ("900", "600")] {
+        session.xdotool(&["windowsize", &window, width, height]);
+        session.expect_alive("a resized window");
+    }
+    session.xdotool(&["windowminimize", &window]);
+    std::thread::sleep(Duration::from_millis(500));
+    let hidden = session.last().tick;
+    std::thread::sleep(Duration::from_millis(500));
+    let later = session.last().tick;
+    assert!(later <= hidden + 2, "a minimised game pauses: {hidden} to {later}");
+    session.xdotool(&["windowmap", "--sync", &window]);
+    session.xdotool(&["windowactivate", &window]);
+    session.expect_alive("the restored window");
+    session.tool("wmctrl", &["-c", "Maze"]);
+    assert!(session.exit_status().success());
+}
+
+#[test]
+fn exit_after_ends_by_itself() {
+    let mut session = Session::open(&["--exit-after", "2"]);
+    assert!(session.exit_status().success());
+    let ticks: Vec<u64> = session.states().iter().map(|state| state.tick).collect();
+    let counted: Vec<u64> = (1..).take(ticks.len()).collect();
+    assert_eq!(ticks, counted, "one line a tick, none left out");
+    assert!(ticks.len() <= 67, "2 s are at most 67 ticks of 0.03 s: {}", ticks.len());
+}

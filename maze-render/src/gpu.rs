@@ -1,0 +1,282 @@
+//! Adapter, device and window surface: what to ask for, what to say when there is none, and when they are lost.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use wgpu::CurrentSurfaceTexture;
+
+/// Why nothing can be drawn. Each message is one line for the person at the keyboard.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    /// No driver offers an adapter that fits.
+    #[error(
+        "no graphics adapter found: install a Vulkan or OpenGL driver (Debian: apt-get install mesa-vulkan-drivers) [{0}]"
+    )]
+    NoAdapter(String),
+    /// The adapter refused or dropped its device, or a command failed on it.
+    #[error("graphics device: {0}")]
+    Device(String),
+    /// The window cannot be drawn to.
+    #[error("window surface: {0}")]
+    Surface(String),
+    /// A picture larger than the adapter's textures.
+    #[error("a picture of {width}x{height} pixels does not fit: each side may be 1 to {max} on this adapter")]
+    PictureSize {
+        /// Asked for.
+        width: u32,
+        /// Asked for.
+        height: u32,
+        /// Longest side the adapter allows.
+        max: u32,
+    },
+}
+
+/// The graphics device and everything it came from.
+pub struct Gpu {
+    /// Name, driver and kind of the adapter.
+    pub adapter_info: wgpu::AdapterInfo,
+    /// Makes resources.
+    pub device: wgpu::Device,
+    /// Takes commands, and presents frames.
+    pub queue: wgpu::Queue,
+    /// The adapter, for its limits and formats.
+    pub adapter: wgpu::Adapter,
+    instance: wgpu::Instance,
+    lost: Arc<AtomicBool>,
+    error: Arc<Mutex<Option<String>>>,
+}
+
+impl Gpu {
+    /// A device with no window. Honours `WGPU_BACKEND`, `WGPU_ADAPTER_NAME` is not read.
+    pub fn offscreen() -> Result<Self, GpuError> {
+        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        pollster::block_on(Self::open(wgpu::Instance::new(descriptor), None))
+    }
+
+    /// A device that can draw to `window`, and the window as a target of `size` pixels. Blocks; the browser needs
+    /// [`Gpu::for_window_async`].
+    ///
+    /// With winit, `window` is an `Arc<Window>` and `display` its `event_loop.owned_display_handle()`, boxed.
+    pub fn for_window<W>(
+        window: W,
+        display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
+        size: [u32; 2],
+    ) -> Result<(Self, WindowTarget), GpuError>
+    where
+        W: wgpu::DisplayAndWindowHandle + Clone + 'static,
+    {
+        let descriptor = wgpu::InstanceDescriptor::new_with_display_handle_from_env(display);
+        pollster::block_on(Self::for_window_async(wgpu::Instance::new(descriptor), window, size))
+    }
+
+    /// [`Gpu::for_window`] for an instance of the caller's making.
+    pub async fn for_window_async<W>(
+        instance: wgpu::Instance,
+        window: W,
+        size: [u32; 2],
+    ) -> Result<(Self, WindowTarget), GpuError>
+    where
+        W: wgpu::DisplayAndWindowHandle + Clone + 'static,
+    {
+        let make_surface = move |instance: &wgpu::Instance| {
+            instance.create_surface(window.clone()).map_err(|e| GpuError::Surface(one_line(&e)))
+        };
+        let surface = make_surface(&instance)?;
+        let gpu = Self::open(instance, Some(&surface)).await?;
+        let target = WindowTarget::new(&gpu, surface, Box::new(make_surface), size)?;
+        Ok((gpu, target))
+    }
+
+    async fn open(
+        instance: wgpu::Instance,
+        surface: Option<&wgpu::Surface<'static>>,
+    ) -> Result<Self, GpuError> {
+        let adapter = instance
+            .request_adapter(&wgpu::RequestAdapterOptions {
+                power_preference: wgpu::PowerPreference::from_env()
+                    .unwrap_or(wgpu::PowerPreference::HighPerformance),
+                compatible_surface: surface,
+                ..Default::default()
+            })
+            .await
+            .map_err(|e| GpuError::NoAdapter(one_line(&e)))?;
+        let adapter_info = adapter.get_info();
+        // What WebGL2 offers, with this adapter's texture size and buffer alignment.
+        let required_limits = wgpu::Limits::downlevel_webgl2_defaults()
+            .using_resolution(adapter.limits())
+            .using_alignment(adapter.limits());
+        let (device, queue) = adapter
+            .request_device(&wgpu::DeviceDescriptor {
+                label: Some("maze"),
+                required_limits,
+                ..Default::default()
+            })
+            .await
+            .map_err(|e| GpuError::Device(format!("{}: {}", adapter_info.name, one_line(&e))))?;
+
+        let lost = Arc::new(AtomicBool::new(false));
+        let error = Arc::new(Mutex::new(None));
+        device.set_device_lost_callback({
+            let (lost, error) = (Arc::clone(&lost), Arc::clone(&error));
+            move |reason, message| {
+                lost.store(true, Ordering::Relaxed);
+                keep_first(&error, format!("device lost ({reason:?}): {}", message.trim()));
+            }
+        });
+        device.on_uncaptured_error({
+            let error = Arc::clone(&error);
+            Arc::new(move |e: wgpu::Error| keep_first(&error, one_line(&e)))
+        });
+        Ok(Self { adapter_info, device, queue, adapter, instance, lost, error })
+    }
+
+    /// True once the device is gone (driver reset, adapter unplugged): drop it and everything made with it, then
+    /// make a new [`Gpu`]. Looks for news each time it is asked.
+    pub fn is_lost(&self) -> bool {
+        // Polling is what runs the device-lost callback; its own failure says nothing more.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    /// The first error the driver reported outside any call's result since the last time this was asked.
+    pub fn take_error(&self) -> Option<GpuError> {
+        let taken = self.error.lock().unwrap_or_else(PoisonError::into_inner).take();
+        taken.map(GpuError::Device)
+    }
+
+    /// Longest side of a texture, and so of a window or a picture.
+    pub fn max_side(&self) -> u32 {
+        self.device.limits().max_texture_dimension_2d
+    }
+
+    /// One line for a log: adapter, backend, driver.
+    pub fn describe(&self) -> String {
+        let info = &self.adapter_info;
+        format!("{} ({:?}, {} {})", info.name, info.backend, info.driver, info.driver_info).trim().to_owned()
+    }
+}
+
+fn keep_first(slot: &Mutex<Option<String>>, message: String) {
+    slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
+}
+
+/// wgpu's messages run over many lines; ours are one.
+fn one_line(error: &dyn std::error::Error) -> String {
+    let mut text = error.to_string();
+    let mut source = error.source();
+    while let Some(inner) = source {
+        let inner_text = inner.to_string();
+        if !text.contains(&inner_text) {
+            text = format!("{text}: {inner_text}");
+        }
+        source = inner.source();
+    }
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+type MakeSurface = Box<dyn Fn(&wgpu::Instance) -> Result<wgpu::Surface<'static>, GpuError>>;
+
+/// A window's surface and how it is set up.
+pub struct WindowTarget {
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    make_surface: MakeSurface,
+    /// False while the window has no area: nothing may be configured or drawn.
+    has_area: bool,
+}
+
+/// What [`WindowTarget::acquire`] found.
+pub enum Acquired {
+    /// Draw to it, submit, then `gpu.queue.present(frame)`.
+    Frame(wgpu::SurfaceTexture),
+    /// Nothing to draw to right now (hidden, no area, late, or just set up anew): try at the next redraw.
+    Skip,
+    /// The device is gone: make a new [`Gpu`].
+    DeviceLost,
+}
+
+impl WindowTarget {
+    fn new(
+        gpu: &Gpu,
+        surface: wgpu::Surface<'static>,
+        make_surface: MakeSurface,
+        size: [u32; 2],
+    ) -> Result<Self, GpuError> {
+        let offered = surface.get_capabilities(&gpu.adapter);
+        let format = offered.formats.iter().copied().find(wgpu::TextureFormat::is_srgb);
+        let plain = || offered.formats.iter().copied().find(is_plain_8_bit);
+        let format = format.or_else(plain).or_else(|| offered.formats.first().copied()).ok_or_else(|| {
+            GpuError::Surface(format!("{} cannot draw to this window", gpu.adapter_info.name))
+        })?;
+        let mut config = surface
+            .get_default_config(&gpu.adapter, 1, 1)
+            .ok_or_else(|| GpuError::Surface("no configuration offered".to_owned()))?;
+        config.format = format;
+        config.present_mode = wgpu::PresentMode::Fifo; // The one mode that is offered everywhere.
+        let mut target = Self { surface, config, make_surface, has_area: false };
+        target.resize(gpu, size);
+        match gpu.take_error() {
+            Some(error) => Err(error),
+            None => Ok(target),
+        }
+    }
+
+    /// Follows the window's size in pixels. A size of zero (minimised, or a page not laid out yet) is waited out.
+    pub fn resize(&mut self, gpu: &Gpu, size: [u32; 2]) {
+        let [width, height] = size.map(|n| n.min(gpu.max_side()));
+        self.has_area = 0 < width && 0 < height;
+        if self.has_area {
+            (self.config.width, self.config.height) = (width, height);
+            self.configure(gpu);
+        }
+    }
+
+    /// The next frame to draw to, if there is one. Repairs what it can: an outdated or lost surface is set up anew.
+    pub fn acquire(&mut self, gpu: &Gpu) -> Result<Acquired, GpuError> {
+        if !self.has_area {
+            return Ok(Acquired::Skip);
+        }
+        match self.surface.get_current_texture() {
+            CurrentSurfaceTexture::Success(texture) => return Ok(Acquired::Frame(texture)),
+            CurrentSurfaceTexture::Suboptimal(texture) => {
+                drop(texture); // A surface cannot be configured while its texture lives.
+                self.configure(gpu);
+            }
+            CurrentSurfaceTexture::Outdated => self.configure(gpu),
+            CurrentSurfaceTexture::Timeout | CurrentSurfaceTexture::Occluded => {}
+            CurrentSurfaceTexture::Lost => {
+                if gpu.is_lost() {
+                    return Ok(Acquired::DeviceLost);
+                }
+                self.surface = (self.make_surface)(&gpu.instance)?;
+                self.configure(gpu);
+            }
+            // A lost device shows as endless validation errors.
+            CurrentSurfaceTexture::Validation => {
+                if gpu.is_lost() {
+                    return Ok(Acquired::DeviceLost);
+                }
+                self.configure(gpu);
+            }
+        }
+        Ok(Acquired::Skip)
+    }
+
+    /// The format to make a [`crate::Renderer`] for.
+    pub fn format(&self) -> wgpu::TextureFormat {
+        self.config.format
+    }
+
+    /// Width and height in pixels; the last ones that were not zero.
+    pub fn size(&self) -> [u32; 2] {
+        [self.config.width, self.config.height]
+    }
+
+    fn configure(&self, gpu: &Gpu) {
+        self.surface.configure(&gpu.device, &self.config);
+    }
+}
+
+fn is_plain_8_bit(format: &wgpu::TextureFormat) -> bool {
+    matches!(format, wgpu::TextureFormat::Rgba8Unorm | wgpu::TextureFormat::Bgra8Unorm)
+}

@@ -1,0 +1,30 @@
+//! The ball: a sphere with a pattern that turns with it, lit like the maze and with the room mirrored in it.
+
+use super::{PassPipeline, Shared};
+use crate::mesh::{Mesh, Vertex};
+use crate::shader;
+
+pub(crate) struct Ball {
+    pipeline: wgpu::RenderPipeline,
+    mesh: Mesh,
+}
+
+impl Ball {
+    pub(crate) fn new(shared: &Shared<'_>) -> Self {
+        let pipeline = shared.pipeline(&PassPipeline {
+            shader: shader::BALL,
+            constants: &[("sun_looks", shared.detail.sun_looks.into())],
+            groups: &[Some(shared.frame_layout), Some(shared.light_layout)],
+            vertices: &[Some(Vertex::LAYOUT)],
+            cull: Some(wgpu::Face::Back),
+            writes_depth: true,
+        });
+        Self { pipeline, mesh: Mesh::ball(shared.device) }
+    }
+
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        self.mesh.bind(pass);
+        pass.draw_indexed(self.mesh.groups[0].clone(), 0, 0..1);
+    }
+}

@@ -1,0 +1,203 @@
+//! What the pictures show. Needs a driver: `apt-get install mesa-vulkan-drivers` gives one to any machine.
+
+use image::{Rgb, RgbImage, RgbaImage};
+use maze_render::{CAPTURE_FORMAT, Detail, Gpu, GpuError, Renderer, Scene, TextureSet, capture};
+use nalgebra::{UnitQuaternion, Vector3};
+
+mod support;
+
+use support::{Board, WALL_HEIGHT, WALL_THICKNESS, flat_textures};
+
+const SIZE: [u32; 2] = [320, 240];
+const ASPECT: f32 = 4.0 / 3.0;
+const GREY: [u8; 3] = [120; 3];
+
+fn drawn(gpu: &Gpu, textures: &TextureSet, board: &Board, scene: &Scene) -> RgbaImage {
+    let mut renderer = Renderer::new(gpu, CAPTURE_FORMAT, textures);
+    renderer.set_maze(gpu, &board.mesh());
+    capture(gpu, &mut renderer, SIZE, scene).expect("a picture")
+}
+
+/// The pixel that shows a point given in the maze frame.
+fn pixel(picture: &RgbaImage, scene: &Scene, maze: [f32; 3]) -> [u8; 3] {
+    let world = scene.world_from_maze * Vector3::from(maze);
+    let at = scene.camera.project(picture.dimensions().into(), world.into()).expect("in front");
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the picture")]
+    let [x, y] = at.map(|c| c as u32);
+    let [r, g, b, _] = picture.get_pixel(x, y).0;
+    [r, g, b]
+}
+
+fn n_different(a: &RgbaImage, b: &RgbaImage) -> usize {
+    assert_eq!(a.dimensions(), b.dimensions());
+    a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count()
+}
+
+fn strongest(colour: [u8; 3]) -> usize {
+    let most = (0..3).max_by_key(|&i| colour[i]).expect("three");
+    let others = (0..3).filter(|&i| i != most).map(|i| colour[i]).max().expect("two");
+    assert!(u32::from(others) * 3 < u32::from(colour[most]) * 2, "no clear colour: {colour:?}");
+    most
+}
+
+#[test]
+fn each_surface_shows_its_own_texture() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::empty(5, 4);
+    let mut scene = board.scene(ASPECT);
+    scene.ball.radius = 0.0;
+    scene.start.radius = 0.0;
+    scene.goal.radius = 0.0;
+    let [hx, hy, _] = board.half_size();
+    let far_wall_foot = hy - WALL_THICKNESS;
+    let picture = drawn(&gpu, &flat_textures([200, 10, 10], [10, 200, 10], [10, 10, 200]), &board, &scene);
+    assert_eq!(strongest(pixel(&picture, &scene, [0.3, far_wall_foot, 0.5 * WALL_HEIGHT])), 0, "wall: red");
+    assert_eq!(strongest(pixel(&picture, &scene, [0.3, -0.4, 0.0])), 1, "floor: green");
+    assert_eq!(
+        strongest(pixel(&picture, &scene, [0.3, hy - 0.5 * WALL_THICKNESS, WALL_HEIGHT])),
+        2,
+        "top: blue"
+    );
+    assert_eq!(strongest(pixel(&picture, &scene, [hx - 0.5 * WALL_THICKNESS, 0.0, WALL_HEIGHT])), 2);
+}
+
+#[test]
+fn textures_repeat_once_a_unit_on_tops_and_every_three_on_the_floor() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::empty(6, 4);
+    let mut scene = board.scene(ASPECT);
+    scene.ball.radius = 0.0;
+    scene.start.radius = 0.0;
+    scene.goal.radius = 0.0;
+    // Dark left half, bright right half.
+    let halves = RgbImage::from_fn(64, 64, |x, _| if x < 32 { Rgb([10; 3]) } else { Rgb([230; 3]) });
+    let textures = TextureSet { wall: halves.clone(), floor: halves.clone(), top: halves };
+    let picture = drawn(&gpu, &textures, &board, &scene);
+    let is_bright = |maze| 100 < pixel(&picture, &scene, maze)[1];
+    for (x, bright) in [(0.75, false), (2.25, true), (-0.75, true), (-2.25, false)] {
+        assert_eq!(is_bright([x, -0.3, 0.0]), bright, "floor at {x}");
+    }
+    let y = board.half_size()[1] - 0.5 * WALL_THICKNESS;
+    for (x, bright) in [(0.25, false), (0.75, true), (1.25, false), (-0.25, true)] {
+        assert_eq!(is_bright([x, y, WALL_HEIGHT]), bright, "top at {x}");
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::carved(6, 4, 1);
+    let mut scene = board.scene(ASPECT);
+    scene.world_from_maze = UnitQuaternion::from_scaled_axis(Vector3::new(0.1, -0.05, 0.0));
+    let textures = flat_textures([150, 80, 60], [176, 130, 86], GREY);
+    let mut renderer = Renderer::new(&gpu, CAPTURE_FORMAT, &textures);
+    renderer.set_maze(&gpu, &board.mesh());
+    let first = capture(&gpu, &mut renderer, SIZE, &scene).unwrap();
+    capture(&gpu, &mut renderer, [200, 300], &board.scene(1.5)).unwrap();
+    assert_eq!(n_different(&first, &capture(&gpu, &mut renderer, SIZE, &scene).unwrap()), 0, "same renderer");
+    let other_gpu = Gpu::offscreen().unwrap();
+    assert_eq!(n_different(&first, &drawn(&other_gpu, &textures, &board, &scene)), 0, "another device");
+}
+
+#[test]
+fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::empty(5, 4);
+    let textures = flat_textures(GREY, GREY, GREY);
+    let mut scene = board.scene(ASPECT);
+    scene.world_from_maze = UnitQuaternion::from_scaled_axis(Vector3::new(0.2, -0.15, 0.0));
+    scene.ball.position = [1.3, -0.7, 0.35];
+    let with_ball = drawn(&gpu, &textures, &board, &scene);
+    let mut without = scene;
+    without.ball.radius = 0.0;
+    let without_ball = drawn(&gpu, &textures, &board, &without);
+    let changed = |at| pixel(&with_ball, &scene, at) != pixel(&without_ball, &scene, at);
+    let [x, y, z] = scene.ball.position;
+    assert!(changed([x, y, z]) && changed([x + 0.25, y, z]) && changed([x, y + 0.25, z]));
+    let beside = [x - 1.2, y, 0.0];
+    let dimmed = pixel(&without_ball, &scene, beside)[1].abs_diff(pixel(&with_ball, &scene, beside)[1]);
+    assert!(dimmed < 8, "the ball takes a little of the sky, no more: {dimmed}");
+    assert!(changed([x + 0.42, y - 0.3, 0.0]), "its shadow falls away from the sun, to the lower right");
+
+    let mut rolled = scene;
+    rolled.ball.rotation = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.2);
+    let n_turned = n_different(&with_ball, &drawn(&gpu, &textures, &board, &rolled));
+    assert!(30 < n_turned, "a turn of 11 degrees shows: {n_turned} pixels");
+}
+
+#[test]
+fn walls_throw_shadows_away_from_the_sun() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::empty(5, 4);
+    let mut scene = board.scene(ASPECT);
+    scene.ball.radius = 0.0;
+    let picture = drawn(&gpu, &flat_textures(GREY, GREY, GREY), &board, &scene);
+    let left_foot = -board.half_size()[0] + WALL_THICKNESS;
+    let in_shadow = pixel(&picture, &scene, [left_foot + 0.2, 0.0, 0.0])[1];
+    let in_sun = pixel(&picture, &scene, [left_foot + 0.9, 0.0, 0.0])[1];
+    let other_side = pixel(&picture, &scene, [-left_foot - 0.25, 0.0, 0.0])[1];
+    assert!(in_shadow + 30 < in_sun, "{in_shadow} {in_sun}");
+    assert!(in_shadow + 20 < other_side, "the sun is on the left: {in_shadow} {other_side}");
+}
+
+#[test]
+fn start_and_goal_differ_in_colour_and_the_goal_glows() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::empty(5, 4);
+    let textures = flat_textures(GREY, GREY, GREY);
+    let mut scene = board.scene(ASPECT);
+    scene.ball.position = [0.0, 0.0, 0.35];
+    scene.goal_glow = 0.0;
+    let picture = drawn(&gpu, &textures, &board, &scene);
+    let [sx, sy] = scene.start.position;
+    let [gx, gy] = scene.goal.position;
+    let green = pixel(&picture, &scene, [gx + 0.52 * scene.goal.radius, gy, 0.0]);
+    assert_eq!(strongest(pixel(&picture, &scene, [sx, sy, 0.0])), 2, "a blue dot");
+    assert_eq!(strongest(green), 1, "a green ring");
+    scene.goal_glow = 1.0;
+    let glowing = drawn(&gpu, &textures, &board, &scene);
+    assert!(green[1] + 10 < pixel(&glowing, &scene, [gx + 0.52 * scene.goal.radius, gy, 0.0])[1]);
+}
+
+#[test]
+fn any_size_works_and_an_impossible_one_says_so() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::carved(4, 4, 2);
+    let mut renderer =
+        Renderer::with_detail(&gpu, CAPTURE_FORMAT, &flat_textures(GREY, GREY, GREY), Detail::FULL);
+    let scene = board.scene(1.0);
+    capture(&gpu, &mut renderer, [64, 48], &scene).expect("no maze yet: the table alone");
+    renderer.set_maze(&gpu, &board.mesh());
+    for size in [[1, 1], [3, 501], [501, 3], [65, 33]] {
+        let picture = capture(&gpu, &mut renderer, size, &scene).unwrap();
+        assert_eq!([picture.width(), picture.height()], size);
+    }
+    for size in [[0, 10], [10, 0], [gpu.max_side() + 1, 1]] {
+        let refused = capture(&gpu, &mut renderer, size, &scene);
+        assert!(matches!(refused, Err(GpuError::PictureSize { .. })), "{size:?}");
+    }
+    renderer.set_maze(&gpu, &maze_core::surface::SurfaceMesh::default());
+    capture(&gpu, &mut renderer, [64, 48], &scene).expect("an empty maze");
+}
+
+#[test]
+fn a_window_s_format_gives_the_same_picture() {
+    let gpu = Gpu::offscreen().unwrap();
+    let board = Board::carved(4, 3, 5);
+    let textures = flat_textures([150, 80, 60], [176, 130, 86], GREY);
+    let scene = board.scene(ASPECT);
+    let expected = drawn(&gpu, &textures, &board, &scene);
+    for format in [wgpu::TextureFormat::Bgra8UnormSrgb, wgpu::TextureFormat::Rgba8Unorm] {
+        let mut renderer = Renderer::new(&gpu, format, &textures);
+        renderer.set_maze(&gpu, &board.mesh());
+        let picture = capture(&gpu, &mut renderer, SIZE, &scene).unwrap();
+        // Without an sRGB format edges are smoothed in encoded colours, so they differ; surfaces do not.
+        let n_off = expected
+            .pixels()
+            .zip(picture.pixels())
+            .filter(|(a, b)| (0..3).any(|i| 3 < a.0[i].abs_diff(b.0[i])))
+            .count();
+        let allowed = if format.is_srgb() { 0 } else { expected.pixels().len() / 10 };
+        assert!(n_off <= allowed, "{format:?}: {n_off} pixels");
+    }
+}
