@@ -53,6 +53,26 @@ fn start(command: &mut Command) -> Killed {
     )
 }
 
+/// The first line that a tool prints; `None` when it fails.
+fn output_of(program: &str, display: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).env("DISPLAY", display).output();
+    let output = output.unwrap_or_else(|error| panic!("{program}: {error}; ./check installs it"));
+    let text = String::from_utf8_lossy(&output.stdout);
+    output.status.success().then(|| text.lines().next().unwrap_or_default().to_owned())
+}
+
+/// Asks again and again until there is an answer.
+fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
+    let begun = Instant::now();
+    loop {
+        if let Some(answer) = ask() {
+            return answer;
+        }
+        assert!(begun.elapsed() < PATIENCE, "waited in vain for {what}");
+        std::thread::sleep(Duration::from_millis(30));
+    }
+}
+
 /// A screen of its own with the game on it.
 struct Session {
     game: Killed,
@@ -80,6 +100,8 @@ impl Session {
         let window_manager = start(
             Command::new("openbox").env("DISPLAY", &display).stdout(Stdio::null()).stderr(Stdio::null()),
         );
+        // A window that opens while the manager starts is never shown.
+        until("the window manager", || output_of("wmctrl", &display, &["-l"]));
         let log = directory.path().join("state.jsonl");
         let game = start(
             Command::new(env!("CARGO_BIN_EXE_maze-app"))
@@ -100,16 +122,15 @@ impl Session {
             window: String::new(),
         };
         session.wait_for("the first ticks", |state| 3 <= state.tick);
-        session.window = session.tool("xdotool", &["search", "--onlyvisible", "--name", "^Maze"]);
-        session.xdotool(&["windowfocus", "--sync", &session.window]);
+        session.window = until("the window to show", || {
+            output_of("xdotool", &session.display, &["search", "--onlyvisible", "--name", "^Maze"])
+        });
+        session.xdotool(&["windowfocus", &session.window]);
         session
     }
 
-    fn tool(&self, program: &str, arguments: &[&str]) -> String {
-        let output = Command::new(program).args(arguments).env("DISPLAY", &self.display).output();
-        let output = output.unwrap_or_else(|error| panic!("{program}: {error}; ./check installs it"));
-        assert!(output.status.success(), "{program} {arguments:?}: {output:?}");
-        String::from_utf8_lossy(&output.stdout).lines().next().unwrap_or_default().to_owned()
+    fn tool(&self, program: &str, arguments: &[&str]) {
+        assert!(output_of(program, &self.display, arguments).is_some(), "{program} {arguments:?} failed");
     }
 
     fn xdotool(&self, arguments: &[&str]) {
@@ -127,18 +148,12 @@ impl Session {
     }
 
     fn wait_for(&mut self, what: &str, condition: impl Fn(&State) -> bool) -> State {
-        let begun = Instant::now();
-        loop {
-            let last = self.states().pop();
-            if let Some(state) = last.clone().filter(&condition) {
-                return state;
-            }
+        until(what, || {
             if let Some(status) = self.game.0.try_wait().unwrap() {
                 panic!("the game ended ({status}) while waiting for {what}");
             }
-            assert!(begun.elapsed() < PATIENCE, "waited in vain for {what}; last: {last:?}");
-            std::thread::sleep(Duration::from_millis(30));
-        }
+            self.states().pop().filter(&condition)
+        })
     }
 
     /// Ticks go on after now.
@@ -148,14 +163,7 @@ impl Session {
     }
 
     fn exit_status(&mut self) -> ExitStatus {
-        let begun = Instant::now();
-        loop {
-            if let Some(status) = self.game.0.try_wait().unwrap() {
-                return status;
-            }
-            assert!(begun.elapsed() < PATIENCE, "the game does not end");
-            std::thread::sleep(Duration::from_millis(30));
-        }
+        until("the game to end", || self.game.0.try_wait().unwrap())
     }
 }
 
@@ -244,7 +252,7 @@ fn tiny_minimised_and_restored_windows_stay_alive() {
     std::thread::sleep(Duration::from_millis(500));
     let later = session.last().tick;
     assert!(later <= hidden + 2, "a minimised game pauses: {hidden} to {later}");
-    session.xdotool(&["windowmap", "--sync", &window]);
+    session.xdotool(&["windowmap", &window]);
     session.xdotool(&["windowactivate", &window]);
     session.expect_alive("the restored window");
     session.tool("wmctrl", &["-c", "Maze"]);
@@ -258,5 +266,6 @@ fn exit_after_ends_by_itself() {
     let ticks: Vec<u64> = session.states().iter().map(|state| state.tick).collect();
     let counted: Vec<u64> = (1..).take(ticks.len()).collect();
     assert_eq!(ticks, counted, "one line a tick, none left out");
-    assert!(ticks.len() <= 67, "2 s are at most 67 ticks of 0.03 s: {}", ticks.len());
+    // 2 s are 67 ticks of 0.03 s; the frame in which the time runs out may hold as many as are ever made up for.
+    assert!(ticks.len() <= 67 + 8, "{} ticks", ticks.len());
 }

@@ -88,7 +88,7 @@ impl Maze {
         let raw_section = Section::new(&survey.cut_walls())?;
         let doubtful_part = raw_section.doubtful_part;
         let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
-        let frame = Frame::new(&raw_section, survey.floor_z, corridor);
+        let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor);
         let section = raw_section.map(|x| frame.x(x), |y| frame.y(y));
         let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
@@ -96,7 +96,7 @@ impl Maze {
         let ball_radius = options.ball_radius.unwrap_or(BallSpec::RADIUS);
         let way = Way::choose(&section, &openings, ball_radius.units())
             .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?;
-        let wall_height = (survey.top_z - survey.floor_z) * frame.scale();
+        let wall_height = frame.z(survey.top_z);
         Ok(Self {
             // A section's faces are finite and have an extent.
             planes: Arc::new(SortedPlanes::new(section.faces()).map_err(|_| AssembleError::NoCorridor)?),

@@ -6,19 +6,26 @@ use nalgebra::Vector3;
 /// A corridor this near to 1 unit is 1 unit: the rounding of a gap between two sums must not rescale a maze.
 const UNIT_SCALE: f64 = 1.0e-9;
 
+/// Walls higher than this (units) are drawn lower: seen from above, a corridor between higher ones hides its ball. The
+/// physics knows no height.
+const MAX_WALL_HEIGHT: f64 = 0.8;
+
 /// Moves the plan's middle to the origin and the floor to z = 0, and scales corridors to 1.
 pub(crate) struct Frame {
     middle: [f64; 2],
     floor_z: f64,
     scale: f64,
+    z_scale: f64,
 }
 
 impl Frame {
-    /// `corridor` is the corridor's width in the file, greater than 0.
-    pub(crate) fn new(section: &Section, floor_z: f64, corridor: f64) -> Self {
+    /// `corridor` is the corridor's width in the file, greater than 0; floor and wall tops are its z coordinates.
+    pub(crate) fn new(section: &Section, [floor_z, top_z]: [f64; 2], corridor: f64) -> Self {
         let [low, high] = section.corners();
         let scale = if (corridor - 1.0).abs() < UNIT_SCALE { 1.0 } else { 1.0 / corridor };
-        Self { middle: [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0), floor_z, scale }
+        let height = (top_z - floor_z) * scale;
+        let z_scale = if MAX_WALL_HEIGHT < height { MAX_WALL_HEIGHT / (top_z - floor_z) } else { scale };
+        Self { middle: [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0), floor_z, scale, z_scale }
     }
 
     /// Maze units in a file unit.
@@ -34,7 +41,11 @@ impl Frame {
         (y - self.middle[1]) * self.scale
     }
 
+    pub(crate) fn z(&self, z: f64) -> f64 {
+        (z - self.floor_z) * self.z_scale
+    }
+
     pub(crate) fn point(&self, point: Vector3<f64>) -> Vector3<f64> {
-        Vector3::new(self.x(point.x), self.y(point.y), (point.z - self.floor_z) * self.scale)
+        Vector3::new(self.x(point.x), self.y(point.y), self.z(point.z))
     }
 }

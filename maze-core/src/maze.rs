@@ -46,7 +46,7 @@ pub struct Maze {
     pub surface: SurfaceMesh,
     /// Of the walls.
     pub bounds: Bounds,
-    /// From the floor to the top of the walls (units).
+    /// From the floor to the top of the walls as drawn (units); very high walls are lowered.
     pub wall_height: f64,
     /// The ball this maze is played with.
     pub ball_radius: Radius,

@@ -59,6 +59,10 @@ pub(crate) struct SurfaceBuilder {
 const THRESHOLD_PART: f64 = 0.4;
 /// How thick it is (units): about a wall of a generated maze.
 const THRESHOLD_DEPTH: f64 = 0.15;
+/// How far inwards of an opening a floor is laid (units), because some files end the floor at the inside of the wall.
+const DOORSTEP: f64 = 1.0;
+/// How far below the file's own floor it lies (units): hidden wherever there is one.
+const DOORSTEP_DROP: f64 = 0.01;
 
 impl SurfaceBuilder {
     /// A flat polygon of any shape, counter-clockwise seen from outside. One without area adds nothing.
@@ -108,11 +112,12 @@ impl SurfaceBuilder {
         self.polygon(Surface::Floor, &corners);
     }
 
-    /// A low bar across an opening of the outer wall, where the frame stops the ball.
+    /// A low bar across an opening of the outer wall, where the frame stops the ball, and a floor to stand on before it.
     pub(crate) fn threshold(&mut self, opening: &Plane, wall_height: f64) {
         let axis = opening.facing.axis();
         let height = THRESHOLD_PART * wall_height;
         let outside = opening.offset - opening.facing.sign() * THRESHOLD_DEPTH;
+        let inside = opening.offset + opening.facing.sign() * DOORSTEP;
         let corner = |across: f64, along: f64, z: f64| {
             let mut corner = Vector3::new(0.0, 0.0, z);
             corner[axis] = across;
@@ -129,13 +134,20 @@ impl SurfaceBuilder {
             corner(outside, opening.end, height),
             corner(outside, opening.start, height),
         ];
+        let doorstep = [
+            corner(opening.offset, opening.start, -DOORSTEP_DROP),
+            corner(opening.offset, opening.end, -DOORSTEP_DROP),
+            corner(inside, opening.end, -DOORSTEP_DROP),
+            corner(inside, opening.start, -DOORSTEP_DROP),
+        ];
         for (surface, corners, normal) in [
+            (Surface::Floor, doorstep, 1.0),
             (Surface::Wall, upright(opening.offset), opening.facing.sign()),
             (Surface::Wall, upright(outside), -opening.facing.sign()),
             (Surface::Top, top, 1.0),
         ] {
             let doubled = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
-            let faces = if surface == Surface::Top { doubled.z } else { doubled[axis] };
+            let faces = if surface == Surface::Wall { doubled[axis] } else { doubled.z };
             let corners = if faces * normal < 0.0 { [3, 2, 1, 0].map(|i| corners[i]) } else { corners };
             self.polygon(surface, &corners);
         }
@@ -206,7 +218,7 @@ mod tests {
             let inward = facing.normal();
             let normals: Vec<_> = mesh.vertices.iter().step_by(4).map(|vertex| vertex.normal).collect();
             let [x, y] = [inward.x as f32, inward.y as f32];
-            assert_eq!(normals, [[x, y, 0.0], [-x, -y, 0.0], [0.0, 0.0, 1.0]]);
+            assert_eq!(normals, [[0.0, 0.0, 1.0], [x, y, 0.0], [-x, -y, 0.0], [0.0, 0.0, 1.0]]);
             assert!((area(&mesh, Surface::Top) - 0.15).abs() < 1.0e-6);
         }
     }
