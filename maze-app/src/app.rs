@@ -186,13 +186,8 @@ impl App {
         let elapsed = now - self.last_frame;
         self.last_frame = now;
         let Some(graphics) = &self.graphics else { return Ok(()) };
-        let aspect = graphics.aspect();
+        let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
         self.simulate(elapsed)?;
-        let held = self.control.is_dragged().then_some(&self.control);
-        let pose = self.game.pose(self.clock.alpha(), held);
-        let whole = Camera::fitted(self.game.half_size(), aspect, self.max_tilt_rad);
-        self.view.update(elapsed, whole, pose.ball_in_world().cast());
-        let scene = self.game.scene(&pose, self.view.camera());
         let title = self.source.title();
         let hud = Hud {
             phase: self.game.phase(),
@@ -202,6 +197,12 @@ impl App {
             has_next: self.source.has_next(),
             help: self.help,
         };
+        let held = self.control.is_dragged().then_some(&self.control);
+        let pose = self.game.pose(self.clock.alpha(), held);
+        let whole = Camera::fitted(self.game.half_size(), aspect, self.max_tilt_rad);
+        let whole = view::with_room_below(whole, hud.covered_part(size_points));
+        self.view.update(elapsed, whole, pose.ball_in_world().cast());
+        let scene = self.game.scene(&pose, self.view.camera());
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         if let Drawn::DeviceLost = graphics.draw(&scene, &hud)? {
             graphics.rebuild(&self.textures)?;

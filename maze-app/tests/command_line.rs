@@ -1,4 +1,5 @@
 //! The command line: what it prints, what it refuses, and that nothing is left half-written.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::path::Path;
 use std::process::{Command, Output};

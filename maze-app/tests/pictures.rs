@@ -1,6 +1,7 @@
 //! `maze-app render`: the same picture each time, and the one we looked at.
 //!
 //! After an intended change: `UPDATE_GOLDENS=1 cargo test -p maze-app --test pictures`, then look at tests/golden/*.png.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use image::RgbImage;
 use std::path::{Path, PathBuf};

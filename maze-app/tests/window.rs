@@ -1,6 +1,7 @@
 //! The game in a real window: Xvfb, a window manager, the software driver, and xdotool's hands on mouse and keys.
 //!
 //! Needs Xvfb, xdotool, openbox and wmctrl, which `./check` installs; without them the test fails and says so.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use serde::Deserialize;
 use std::io::{BufRead, BufReader};

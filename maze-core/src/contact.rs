@@ -40,7 +40,12 @@ pub fn closest_point(centre: Vector2<f64>, plane: &Plane) -> Vector2<f64> {
 pub fn find(centre: Vector2<f64>, radius: f64, plane: &Plane) -> Option<Contact> {
     let closest = closest_point(centre, plane);
     let distance = (centre - closest).norm();
-    (distance < radius).then(|| Contact { plane: *plane, closest, distance, penetration: radius - distance })
+    (distance < radius).then_some(Contact {
+        plane: *plane,
+        closest,
+        distance,
+        penetration: radius - distance,
+    })
 }
 
 impl Contact {

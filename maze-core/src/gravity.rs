@@ -71,6 +71,7 @@ impl Tilt {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use trigonometry")]
 mod tests {
     use super::*;
 

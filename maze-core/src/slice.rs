@@ -30,7 +30,7 @@ pub(crate) fn classify(polygon: &[Vector3<f64>], mesh_size: f64) -> (FaceKind, f
     let next = polygon.iter().cycle().skip(1);
     let doubled: Vector3<f64> = polygon.iter().zip(next).map(|(a, b)| a.cross(b)).sum();
     let area = doubled.norm() / 2.0;
-    if !(DEGENERATE_AREA * mesh_size * mesh_size < area) {
+    if area <= DEGENERATE_AREA * mesh_size * mesh_size {
         return (FaceKind::Degenerate, area);
     }
     let normal = doubled / (2.0 * area);

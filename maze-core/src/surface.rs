@@ -195,7 +195,7 @@ mod tests {
             let mut builder = SurfaceBuilder::default();
             builder.polygon(Surface::Wall, &corners);
             let mesh = builder.finish();
-            assert_eq!(mesh.vertices[0].normal[axis], sign as f32);
+            assert_eq!(f64::from(mesh.vertices[0].normal[axis]), sign);
             assert!((area(&mesh, Surface::Wall) - 10.0).abs() < 1.0e-5, "axis {axis}, sign {sign}");
         }
     }
@@ -217,7 +217,7 @@ mod tests {
             let mesh = builder.finish();
             let inward = facing.normal();
             let normals: Vec<_> = mesh.vertices.iter().step_by(4).map(|vertex| vertex.normal).collect();
-            let [x, y] = [inward.x as f32, inward.y as f32];
+            let [x, y] = to_f32(inward.as_ref());
             assert_eq!(normals, [[0.0, 0.0, 1.0], [x, y, 0.0], [-x, -y, 0.0], [0.0, 0.0, 1.0]]);
             assert!((area(&mesh, Surface::Top) - 0.15).abs() < 1.0e-6);
         }

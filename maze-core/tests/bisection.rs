@@ -1,4 +1,5 @@
 //! The bisection against its linear-scan twin, and the published engine against what must never happen.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Engine, Facing, Maze, Plane, Published, SortedPlanes, Tilt,

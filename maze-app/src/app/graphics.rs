@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input;
-use crate::ui::{Hud, Overlay};
+use crate::ui::{self, Hud, Overlay};
 use maze_core::Maze;
 use maze_render::{Acquired, Camera, Gpu, Renderer, Scene, TextureSet, WindowTarget};
 use nalgebra::Vector3;
@@ -85,9 +85,19 @@ impl Graphics {
 
     /// Width over height.
     pub(super) fn aspect(&self) -> f32 {
-        #[allow(clippy::cast_precision_loss, reason = "no window is 2^24 pixels wide")]
-        let [width, height] = self.target.size().map(|pixels| pixels.max(1) as f32);
+        let [width, height] = self.target.size().map(|pixels| ui::to_points(pixels.max(1), 1.0));
         width / height
+    }
+
+    /// Width and height in the units of the HUD.
+    pub(super) fn size_points(&self) -> [f32; 2] {
+        self.target.size().map(|pixels| ui::to_points(pixels, self.scale()))
+    }
+
+    fn scale(&self) -> f32 {
+        #[allow(clippy::cast_possible_truncation, reason = "a scale factor is a small number")]
+        let scale = self.window.scale_factor() as f32;
+        scale
     }
 
     /// Shortest time from frame to frame.
@@ -112,9 +122,7 @@ impl Graphics {
         let size = self.target.size();
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         self.renderer.draw(&self.gpu, &mut encoder, &view, size, scene);
-        #[allow(clippy::cast_possible_truncation, reason = "a scale factor is a small number")]
-        let scale = self.window.scale_factor() as f32;
-        self.overlay.draw(&self.gpu, &mut encoder, &view, size, scale, hud);
+        self.overlay.draw(&self.gpu, &mut encoder, &view, size, self.scale(), hud);
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);

@@ -1,7 +1,7 @@
 //! The camera: the whole maze at first, nearer with the ball in the middle when zoomed in.
 
 use crate::game::to_f32;
-use maze_render::Camera;
+use maze_render::{Camera, FIELD_OF_VIEW_RAD};
 use nalgebra::Vector3;
 use std::time::Duration;
 
@@ -16,6 +16,14 @@ const FOLLOW_ZOOM: f64 = 2.0;
 
 /// Time in which the view covers all but a third of its way (s): quick, and without a jerk.
 const SETTLE_S: f64 = 0.09;
+
+/// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
+pub(super) fn with_room_below(camera: Camera, part: f32) -> Camera {
+    let distance = camera.distance / (1.0 - part);
+    let down = part * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
+    let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
+    Camera { target: target.into(), distance }
+}
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
@@ -70,6 +78,16 @@ mod tests {
         let [farthest, nearest] = ZOOM_RANGE.map(|zoom| 20.0 / to_f32(zoom));
         assert!((settled(100.0).distance - nearest).abs() < 1.0e-4);
         assert!((settled(-100.0).distance - farthest).abs() < 1.0e-4);
+    }
+
+    #[test]
+    fn room_below_moves_the_picture_up_and_makes_it_smaller() {
+        let size = [1000, 1000];
+        let middle = |camera: Camera| camera.project(size, WHOLE.target).unwrap();
+        assert_eq!(middle(with_room_below(WHOLE, 0.0)), middle(WHOLE));
+        let [x, y] = middle(with_room_below(WHOLE, 0.2));
+        // Above a free fifth the middle lies at 40 % of the height.
+        assert!((x - 500.0).abs() < 0.1 && (y - 400.0).abs() < 0.1, "{x}, {y}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::game::Game;
 use crate::source::{ReadArguments, parse_pixel_size};
+use crate::ui::to_points;
 use clap::Args;
 use image::ImageFormat;
 use maze_core::Tilt;
@@ -47,7 +48,7 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
     let (x, y) = text.split_once(',').ok_or_else(expected)?;
     let [x, y]: [f64; 2] = [x, y].map(|word| word.trim().parse().unwrap_or(f64::NAN));
     let degrees = (x * x + y * y).sqrt();
-    if !(degrees <= MAX_TILT_DEGREES) {
+    if degrees.is_nan() || MAX_TILT_DEGREES < degrees {
         return Err(expected());
     }
     if degrees == 0.0 {
@@ -69,7 +70,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // A picture may take its time on any driver.
     let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
     renderer.set_maze(&gpu, &game.maze().surface);
-    let aspect = pixels(arguments.size[0]) / pixels(arguments.size[1]);
+    let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
     let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
     let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
     let camera = Camera::fitted(game.half_size(), aspect, tilt_rad);
@@ -79,11 +80,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut png = Cursor::new(Vec::new());
     picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
     files::write_whole(&arguments.out, png.get_ref())
-}
-
-#[allow(clippy::cast_precision_loss, reason = "no picture is 2^24 pixels wide")]
-fn pixels(n: u32) -> f32 {
-    n as f32
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ const RADIUS_PART: f64 = 0.5;
 pub(crate) fn sphere_point(size: [u32; 2], pixel: [f64; 2]) -> Option<Vector3<f64>> {
     let [width, height] = size.map(f64::from);
     let radius = RADIUS_PART * (width * width + height * height).sqrt();
-    if !(0.0 < radius) {
+    if radius == 0.0 {
         return None;
     }
     let x = (pixel[0] - width / 2.0) / radius;

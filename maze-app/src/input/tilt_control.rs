@@ -81,7 +81,10 @@ impl TiltControl {
 
     /// The board lies flat; a drag in progress ends.
     pub(crate) fn level(&mut self) {
-        *self = Self { limit: self.limit, held: self.held, ..Self::new(0.0) };
+        self.asked = Vector2::zeros();
+        self.drag = None;
+        self.keys_lead = false;
+        self.tapped_left_s = [0.0; 4];
     }
 
     /// The mouse takes hold at a point of the arcball, given in world axes.
@@ -156,11 +159,8 @@ fn swing_tangents(world_from_maze: &UnitQuaternion<f64>) -> Vector2<f64> {
     Vector2::new(swing.j / swing.w, -swing.i / swing.w)
 }
 
-/// Nearly the identity up to 2/3 of the limit, then smoothly up to it: t / (1 + (t / L)^4)^(1/4).
+/// `limit` must be greater than 0. Nearly the identity up to 2/3 of the limit, then smoothly up to it: t / (1 + (t / L)^4)^(1/4).
 fn soft_limited(asked: Vector2<f64>, limit: f64) -> Vector2<f64> {
-    if !(0.0 < limit) {
-        return Vector2::zeros();
-    }
     let part = asked.norm_squared() / (limit * limit);
     asked / (1.0 + part * part).sqrt().sqrt()
 }

@@ -14,6 +14,9 @@ const MARGIN: f32 = 14.0;
 /// Below this width or height (points) only the clock is shown.
 const SMALL: [f32; 2] = [520.0, 300.0];
 
+/// The list of keys in one line, with its margins (points).
+const KEYS_HEIGHT: f32 = 50.0;
+
 const KEYS: [(&str, &str); 8] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
@@ -50,14 +53,18 @@ fn panel() -> Frame {
 }
 
 impl Hud<'_> {
+    /// Part of the window's height, at its lower edge, that the list of keys takes: the maze is shown above it.
+    pub(crate) fn covered_part(&self, size_points: [f32; 2]) -> f32 {
+        if self.help && !is_small(size_points) { KEYS_HEIGHT / size_points[1] } else { 0.0 }
+    }
+
     pub(super) fn show(&self, ui: &mut Ui) {
         let screen = ui.ctx().content_rect();
-        let is_small = screen.width() < SMALL[0] || screen.height() < SMALL[1];
         self.clock(ui.ctx());
         if self.phase == Phase::Finished {
             self.goal_reached(ui.ctx());
         }
-        if is_small {
+        if is_small([screen.width(), screen.height()]) {
             return;
         }
         area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
@@ -88,6 +95,7 @@ impl Hud<'_> {
 
     fn keys(&self, context: &Context) {
         area(context, "keys", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
+            ui.set_max_width(context.content_rect().width() - 4.0 * MARGIN);
             ui.horizontal_wrapped(|ui| {
                 for (key, effect) in KEYS.into_iter().filter(|(key, _)| self.has_next || *key != "N") {
                     ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
@@ -117,6 +125,10 @@ impl Hud<'_> {
             },
         );
     }
+}
+
+fn is_small(size_points: [f32; 2]) -> bool {
+    size_points[0] < SMALL[0] || size_points[1] < SMALL[1]
 }
 
 fn area(context: &Context, name: &str, anchor: Align2, offset: egui::Vec2, add: impl FnOnce(&mut Ui)) {

@@ -22,6 +22,10 @@ impl Overlay {
     }
 
     /// Lays out the HUD and encodes a pass that draws it over `view`.
+    #[allow(
+        clippy::iter_over_hash_type,
+        reason = "each texture is set or freed by itself, in whatever order"
+    )]
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
@@ -66,7 +70,8 @@ impl Overlay {
     }
 }
 
+/// Pixels in the units of the HUD: the window system's scale taken out.
 #[allow(clippy::cast_precision_loss, reason = "no window is 2^24 pixels wide")]
-fn to_points(pixels: u32, scale: f32) -> f32 {
+pub(crate) fn to_points(pixels: u32, scale: f32) -> f32 {
     pixels as f32 / scale
 }

@@ -1,0 +1,118 @@
+//! rapier3d as a [`maze_core::Engine`].
+
+use maze_core::{Ball, BallSpec, Bounds, Engine, NonFinite, Tick};
+use nalgebra::Vector2;
+use rapier3d::prelude::*;
+
+/// A ball among fixed boxes, held in the plane: what rapier makes of the same scene.
+///
+/// rapier computes in f32. The ball neither turns nor sleeps, and nothing rubs, as in maze-core; rapier's restitution is
+/// the mean of both colliders', so both get the ball's.
+pub struct RapierEngine {
+    world: PhysicsWorld,
+    body: RigidBodyHandle,
+    collider: ColliderHandle,
+    spec: BallSpec,
+    tick_s: f64,
+}
+
+/// Half the height of walls and the depth of the scene (units): any size that the ball's centre stays well inside of.
+const HALF_HEIGHT: f32 = 0.5;
+
+impl RapierEngine {
+    /// Walls are given as rectangles; `tick_s` is rapier's step.
+    ///
+    /// # Errors
+    /// A position or velocity that is not finite.
+    pub fn new(
+        walls: impl IntoIterator<Item = Bounds>,
+        spec: BallSpec,
+        ball: Ball,
+        tick_s: f64,
+    ) -> Result<Self, NonFinite> {
+        let ball = ball.checked()?;
+        let restitution = to_f32(spec.restitution);
+        let mut world = PhysicsWorld::default();
+        world.integration_parameters.dt = to_f32(tick_s);
+        for wall in walls {
+            let half = wall.size() / 2.0;
+            let middle = (wall.low + wall.high) / 2.0;
+            let cuboid = ColliderBuilder::cuboid(to_f32(half.x), to_f32(half.y), HALF_HEIGHT)
+                .translation(in_plane(middle))
+                .restitution(restitution)
+                .friction(0.0);
+            world.insert_collider(cuboid, None);
+        }
+        let body = RigidBodyBuilder::dynamic()
+            .translation(in_plane(ball.position))
+            .linvel(in_plane(ball.velocity))
+            .enabled_translations(true, true, false)
+            .lock_rotations()
+            .can_sleep(false);
+        let shape = ColliderBuilder::ball(to_f32(spec.radius.units())).restitution(restitution).friction(0.0);
+        let (body, collider) = world.insert(body, shape);
+        Ok(Self { world, body, collider, spec, tick_s })
+    }
+
+    /// How deep the ball reaches into a wall now (units), by rapier's own contacts.
+    pub fn penetration(&self) -> f64 {
+        let pairs = self.world.narrow_phase.contact_pairs_with(self.collider);
+        let depths = pairs.filter_map(|pair| pair.find_deepest_contact().map(|(_, contact)| -contact.dist));
+        f64::from(depths.fold(0.0, f32::max))
+    }
+}
+
+impl Engine for RapierEngine {
+    /// `n_hits` is 1 when a velocity component changed its sign against the acceleration, as only a bounce makes it.
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, NonFinite> {
+        if !acceleration.iter().all(|value| value.is_finite()) {
+            return Err(NonFinite { what: "the acceleration" });
+        }
+        let before = self.ball().velocity;
+        self.world.gravity = in_plane(acceleration * self.spec.rolling);
+        self.world.step();
+        let after = self.ball().velocity;
+        let bounced =
+            |axis: usize| before[axis] * after[axis] < 0.0 && 0.0 <= before[axis] * acceleration[axis];
+        let speeds = [0, 1].into_iter().filter(|axis| bounced(*axis)).map(|axis| before[axis].abs());
+        let hardest_hit = speeds.fold(0.0, f64::max);
+        Ok(Tick {
+            n_steps: 1,
+            n_hits: u32::from(0.0 < hardest_hit),
+            hardest_hit,
+            deepest_penetration: self.penetration(),
+            dropped_s: 0.0,
+        })
+    }
+
+    fn ball(&self) -> Ball {
+        let body = &self.world.bodies[self.body];
+        let planar = |vector: Vector| Vector2::new(f64::from(vector.x), f64::from(vector.y));
+        Ball { position: planar(body.translation()), velocity: planar(body.linvel()) }
+    }
+
+    fn place(&mut self, ball: Ball) -> Result<(), NonFinite> {
+        let ball = ball.checked()?;
+        let body = &mut self.world.bodies[self.body];
+        body.set_translation(in_plane(ball.position), true);
+        body.set_linvel(in_plane(ball.velocity), true);
+        Ok(())
+    }
+
+    fn spec(&self) -> &BallSpec {
+        &self.spec
+    }
+
+    fn tick_s(&self) -> f64 {
+        self.tick_s
+    }
+}
+
+fn in_plane(vector: Vector2<f64>) -> Vector {
+    Vector::new(to_f32(vector.x), to_f32(vector.y), 0.0)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "rapier computes in f32")]
+fn to_f32(value: f64) -> f32 {
+    value as f32
+}
