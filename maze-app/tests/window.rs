@@ -106,7 +106,7 @@ impl Session {
         let log = directory.path().join("state.jsonl");
         let game = start(
             Command::new(env!("CARGO_BIN_EXE_maze-app"))
-                .args(["play", "--seed", "5", "--size", "6x4", "--state-log"])
+                .args(["play", "--seed", "5", "--state-log"])
                 .arg(&log)
                 .args(arguments)
                 .env("DISPLAY", &display)
@@ -168,9 +168,11 @@ impl Session {
     }
 }
 
+const MAZE: [&str; 2] = ["--size", "6x4"];
+
 #[test]
 fn mouse_and_keys_play_the_game() {
-    let mut session = Session::open(&[]);
+    let mut session = Session::open(&MAZE);
     let start = session.last();
     assert_eq!((start.phase.as_str(), start.clock_ticks), ("ready", 0));
     assert_eq!(start.orientation, [1.0, 0.0, 0.0, 0.0]);
@@ -220,8 +222,29 @@ fn mouse_and_keys_play_the_game() {
 }
 
 #[test]
+fn the_goal_stops_the_clock_and_r_starts_again() {
+    // Two cells: the goal is at the other end of a straight corridor.
+    let mut session = Session::open(&["--size", "2x1"]);
+    let start = session.last();
+    let key = if start.position[0] < 0.0 { "Right" } else { "Left" };
+    session.xdotool(&["keydown", key]);
+    let finished = session.wait_for("the goal", |state| state.phase == "finished");
+    session.xdotool(&["keyup", key]);
+    session.expect_alive("the goal");
+    assert_eq!(session.last().clock_ticks, finished.clock_ticks);
+    assert!(start.position[0] * finished.position[0] < 0.0, "the goal is on the other side");
+    session.xdotool(&["key", "r"]);
+    let again = session.wait_for("R to start again", |state| state.phase == "ready");
+    assert_eq!((again.position, again.clock_ticks), (start.position, 0));
+    session.xdotool(&["key", "n"]);
+    session.expect_alive("a new maze");
+    session.xdotool(&["key", "Escape"]);
+    assert!(session.exit_status().success());
+}
+
+#[test]
 fn zoom_keys_move_the_camera_within_limits() {
-    let mut session = Session::open(&[]);
+    let mut session = Session::open(&MAZE);
     let whole = session.last().camera_distance;
     session.xdotool(&["key", "b"]);
     session.wait_for("B to zoom in", |state| state.camera_distance < 0.95 * whole);
@@ -241,7 +264,7 @@ fn zoom_keys_move_the_camera_within_limits() {
 
 #[test]
 fn tiny_minimised_and_restored_windows_stay_alive() {
-    let mut session = Session::open(&[]);
+    let mut session = Session::open(&MAZE);
     let window = session.window.clone();
     for (width, height) in [("1", "1"), ("300", "60"), ("60", "700"), ("900", "600")] {
         session.xdotool(&["windowsize", &window, width, height]);
