@@ -118,6 +118,18 @@ mod tests {
     }
 
     #[test]
+    fn every_seed_and_size_gives_a_maze_in_its_own_units() {
+        for (width, height) in [(2, 1), (1, 2), (2, 2), (3, 2), (4, 4), (8, 6), (14, 9)] {
+            for seed in 0..100 {
+                let layout = layout::recursive_backtracker(width, height, seed).unwrap();
+                let maze = Maze::from_polygons(&extrude(&layout), &AssembleOptions::default()).unwrap();
+                assert!(maze.scale == 1.0 && maze.solvable, "{width}x{height}, seed {seed}: {}", maze.scale);
+                assert!(0.5 < (maze.start - maze.goal).norm(), "{width}x{height}, seed {seed}");
+            }
+        }
+    }
+
+    #[test]
     fn corridors_stay_one_unit_wide_and_start_lies_in_a_corridor() {
         let layout = layout::recursive_backtracker(12, 9, 7).unwrap();
         let maze = Maze::from_polygons(&extrude(&layout), &AssembleOptions::default()).unwrap();

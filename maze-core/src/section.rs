@@ -6,6 +6,7 @@
 //! The walk is made from all four sides; where a file lacks a face they disagree, and three of four decide.
 
 use crate::plane::{Facing, Plane};
+use std::collections::BTreeMap;
 
 /// Coordinates nearer than this part of the plan's size are one coordinate: between the rounding of a file with six
 /// decimals (1e-6) and the thinnest wall of a maze of a thousand corridors (1e-4).
@@ -43,6 +44,9 @@ pub enum SectionError {
         n_y: usize,
     },
 }
+
+/// How common a gap must be, as a part of the commonest, to be a corridor's width.
+const COMMON_PART: f64 = 0.25;
 
 /// The ground plan. Cell (i, j) is `xs[i]..xs[i + 1]` by `ys[j]..ys[j + 1]`.
 /// Invariant: `xs` and `ys` strictly ascend and have at least two entries.
@@ -234,34 +238,36 @@ impl Section {
         openings
     }
 
-    /// The commonest gap between opposing faces, weighted by how far it extends: the corridor's width.
+    /// The corridor's width: the narrowest of the common gaps between opposing faces. `None` when nothing is free.
     ///
-    /// Gaps within 2 % of each other count as one width. `None` when no free space lies between two walls.
+    /// A gap counts by how far it extends; gaps within 2 % of each other are one width. Not simply the commonest, because
+    /// in a maze of many turns a run of two cells can be commoner than a corridor's width; nor the narrowest, because of
+    /// slits: a width must be a quarter as common as the commonest.
     pub(crate) fn corridor(&self) -> Option<f64> {
-        let mut gaps: Vec<(f64, f64)> = Vec::new(); // (gap, extent)
+        let mut extents: BTreeMap<u64, f64> = BTreeMap::new(); // bits of a positive float order as the float
         for axis in [0, 1] {
             let (offsets, alongs) = if axis == 0 { (&self.xs, &self.ys) } else { (&self.ys, &self.xs) };
             for across in 0..alongs.len() - 1 {
-                let is_solid = |step: usize| self.is_solid_framed(axis, step + 1, across);
-                let mut last_wall_end: Option<f64> = None;
-                for step in 0..offsets.len() - 1 {
-                    if is_solid(step) {
-                        if let Some(end) = last_wall_end
-                            && end < offsets[step]
-                        {
-                            gaps.push((offsets[step] - end, alongs[across + 1] - alongs[across]));
+                let mut first_free = 0;
+                for step in 0..offsets.len() {
+                    // Steps are counted from the frame: its far side ends the last gap.
+                    if self.is_solid_framed(axis, step + 1, across) {
+                        if first_free < step {
+                            let gap = offsets[step] - offsets[first_free];
+                            *extents.entry(gap.to_bits()).or_default() += alongs[across + 1] - alongs[across];
                         }
-                        last_wall_end = Some(offsets[step + 1]);
+                        first_free = step + 1;
                     }
                 }
             }
         }
-        gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let clusters = gaps.chunk_by(|a, b| b.0 <= a.0 * 1.02);
-        let weight = |cluster: &[(f64, f64)]| cluster.iter().map(|(_, extent)| extent).sum::<f64>();
-        // On a tie the narrower one: `max_by` keeps the last of equals, and clusters ascend.
-        let commonest = clusters.rev().max_by(|a, b| weight(a).total_cmp(&weight(b)))?;
-        Some(commonest[commonest.len() / 2].0)
+        let gaps: Vec<(f64, f64)> =
+            extents.into_iter().map(|(bits, extent)| (f64::from_bits(bits), extent)).collect();
+        let extent = |width: &[(f64, f64)]| width.iter().map(|(_, extent)| extent).sum::<f64>();
+        let widths = || gaps.chunk_by(|a, b| b.0 <= a.0 * 1.02);
+        let most = widths().map(extent).reduce(|a, b| if a < b { b } else { a })?;
+        let narrowest = widths().find(|width| COMMON_PART * most <= extent(width))?;
+        narrowest.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(gap, _)| *gap)
     }
 }
 
@@ -417,10 +423,12 @@ mod tests {
     }
 
     #[test]
-    fn the_commonest_gap_is_the_corridor() {
+    fn the_narrowest_common_gap_is_the_corridor() {
         let mut blocks = vec![block([0.0, 10.0], [-1.0, 0.0])];
         blocks.push(block([0.0, 10.0], [1.5, 2.0])); // a corridor 1.5 wide and 10 long
         blocks.push(block([0.0, 3.0], [4.0, 5.0])); // and a space 2 wide and 3 long
+        blocks.push(block([3.0, 4.0], [2.0, 5.0]));
+        blocks.push(block([4.0, 4.5], [2.2, 5.0])); // and a slit
         assert_eq!(section(&blocks).corridor(), Some(1.5));
     }
 
