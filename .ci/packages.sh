@@ -1,7 +1,11 @@
 # Sourced by ../play and ../check: installs the Debian packages that are missing, or prints the line that does.
 
 # has_library NAME: whether the loader knows a shared library.
-has_library() { { ldconfig -p 2>/dev/null || /sbin/ldconfig -p; } | grep -q -F "$1 "; }
+has_library() {
+    local known
+    known=$(ldconfig -p 2>/dev/null || /sbin/ldconfig -p 2>/dev/null || true)
+    grep -q -F "$1 " <<<"$known"
+}
 
 # has_driver: whether there is a Vulkan loader and a driver for it.
 has_driver() {
@@ -26,14 +30,19 @@ libxkbcommon-x11.so.0 libxkbcommon-x11-0
 END
 }
 
-# install PACKAGE...: through apt when root or with sudo; else says what to type and ends.
-install() {
+# install_packages PACKAGE...: through apt when root or with sudo; else says what to type and ends. Other systems have other
+# names for them: there the missing ones are told and the work goes on.
+install_packages() {
     (($#)) || return 0
+    if ! command -v apt-get >/dev/null; then
+        echo "possibly missing (Debian's names): $*" >&2
+        return 0
+    fi
     local line="apt-get update && apt-get install -y --no-install-recommends $*"
-    if command -v apt-get >/dev/null && [[ $EUID -eq 0 ]]; then
+    if [[ $EUID -eq 0 ]]; then
         echo "installing: $*" >&2
         DEBIAN_FRONTEND=noninteractive bash -c "$line" >&2
-    elif command -v apt-get >/dev/null && command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+    elif command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
         echo "installing with sudo: $*" >&2
         sudo DEBIAN_FRONTEND=noninteractive bash -c "$line" >&2
     else
@@ -52,7 +61,7 @@ need_cargo() {
 # Mesa and Wayland libraries complain loudly when this is not set.
 quiet_runtime_dir() {
     [[ -n ${XDG_RUNTIME_DIR:-} ]] && return
-    XDG_RUNTIME_DIR=$(mktemp -d)
-    export XDG_RUNTIME_DIR
-    trap 'rm -rf "$XDG_RUNTIME_DIR"' EXIT
+    our_runtime_dir=$(mktemp -d)
+    export XDG_RUNTIME_DIR=$our_runtime_dir
+    trap 'rm -rf "$our_runtime_dir"' EXIT
 }

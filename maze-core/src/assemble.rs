@@ -3,14 +3,15 @@
 use crate::ball::{BallSpec, Radius};
 use crate::frame::Frame;
 use crate::maze::{Bounds, Ignored, Maze};
-use crate::plane::Plane;
+use crate::plane::{Plane, PlaneError};
 use crate::polygons::{PolygonMesh, UpAxis};
-use crate::reach::Reach;
+use crate::reach::{Distances, Reach};
 use crate::section::{Section, SectionError};
 use crate::slice::{self, FaceKind};
 use crate::sorted_planes::SortedPlanes;
 use crate::surface::{Surface, SurfaceBuilder, SurfaceMesh};
 use nalgebra::{Vector2, Vector3};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Where between floor and wall tops the walls are cut: below the middle, where many files have a seam.
@@ -21,6 +22,15 @@ const MAX_OFF_AXIS_PART: f64 = 0.05;
 
 /// Upward faces nearer to the floor than this part of the wall height are floor, the others are tops of walls.
 const FLOOR_PART: f64 = 0.25;
+
+/// How near the ball's centre must come to the goal (units): within the goal's corridor, whatever the ball's size.
+const GOAL_RADIUS: f64 = 0.35;
+
+/// Extents of a file that can be computed with (file units): squares and products of areas stay finite and above 0.
+const SIZES: RangeInclusive<f64> = 1.0e-12..=1.0e12;
+
+/// Most separate regions with openings that are searched for the farthest pair; a maze has one.
+const MAX_REGIONS: usize = 16;
 
 /// What the user may decide instead of us.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,6 +47,12 @@ pub enum AssembleError {
     /// There is nothing.
     #[error("no faces: expected walls")]
     NoFaces,
+    /// Products of such coordinates would be infinite or nothing.
+    #[error("the file is {size:e} units large: expected {low:e} to {high:e}", low = SIZES.start(), high = SIZES.end())]
+    Size {
+        /// Largest extent, in file units.
+        size: f64,
+    },
     /// No upright face along an axis.
     #[error("no walls among {n_faces} faces: expected upright faces along two axes")]
     NoWalls {
@@ -53,6 +69,15 @@ pub enum AssembleError {
         /// Share of the upright and slanted area.
         percent: f64,
     },
+    /// The walls stand elsewhere than on the floor.
+    #[error("no wall stands at height {height} above the floor (file units, along the up axis)")]
+    NothingCut {
+        /// Where the walls were cut.
+        height: f64,
+    },
+    /// A wall face is not usable.
+    #[error(transparent)]
+    Plane(#[from] PlaneError),
     /// The faces make no ground plan.
     #[error(transparent)]
     Section(#[from] SectionError),
@@ -85,7 +110,7 @@ impl Maze {
     pub fn from_polygons(mesh: &PolygonMesh, options: &AssembleOptions) -> Result<Self, AssembleError> {
         let up_axis = options.up_axis.unwrap_or_else(|| flattest_axis(mesh.positions()));
         let survey = Survey::new(mesh, up_axis)?;
-        let raw_section = Section::new(&survey.cut_walls())?;
+        let raw_section = Section::new(&survey.cut_walls()?)?;
         let doubtful_part = raw_section.doubtful_part;
         let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
         let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor);
@@ -98,8 +123,7 @@ impl Maze {
             .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?;
         let wall_height = frame.z(survey.top_z);
         Ok(Self {
-            // A section's faces are finite and have an extent.
-            planes: Arc::new(SortedPlanes::new(section.faces()).map_err(|_| AssembleError::NoCorridor)?),
+            planes: Arc::new(SortedPlanes::new(section.faces())?),
             surface: survey.surface(&frame, bounds, &openings, wall_height),
             openings,
             bounds,
@@ -107,7 +131,7 @@ impl Maze {
             ball_radius,
             start: way.start,
             goal: way.goal,
-            goal_radius: ball_radius.units(),
+            goal_radius: GOAL_RADIUS,
             solvable: way.solvable,
             up_axis,
             scale: frame.scale(),
@@ -120,21 +144,25 @@ impl Maze {
 
 /// A board is flat: the axis of the smallest extent, y (the custom of modelling programs) before z before x on a tie.
 fn flattest_axis(positions: &[Vector3<f64>]) -> UpAxis {
-    let low = positions.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
-    let high = positions.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-    let extent = high - low;
+    let extent = extent(positions);
     let by_extent = [(extent.y, UpAxis::Y), (extent.z, UpAxis::Z), (extent.x, UpAxis::X)];
     by_extent.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(UpAxis::Y, |(_, axis)| axis)
+}
+
+/// Size of the bounding box; 0 for nothing.
+fn extent(positions: &[Vector3<f64>]) -> Vector3<f64> {
+    let low = positions.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
+    let high = positions.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
+    high - low
 }
 
 impl Survey {
     fn new(file_mesh: &PolygonMesh, up_axis: UpAxis) -> Result<Self, AssembleError> {
         let mesh = file_mesh.map_positions(|position| up_axis.turned_to_z(position));
-        let size = mesh
-            .positions()
-            .iter()
-            .map(|position| position.amax())
-            .fold(0.0, |a, b| if a < b { b } else { a });
+        let size = extent(mesh.positions()).amax();
+        if size != 0.0 && !SIZES.contains(&size) {
+            return Err(AssembleError::Size { size });
+        }
         let mut kinds = Vec::with_capacity(mesh.n_faces());
         let mut areas = Vec::with_capacity(mesh.n_faces());
         for face in mesh.faces() {
@@ -178,13 +206,15 @@ impl Survey {
         self.kinds.iter().copied().zip(self.mesh.faces().map(|face| corners(&self.mesh, face)))
     }
 
-    fn cut_walls(&self) -> Vec<Plane> {
+    fn cut_walls(&self) -> Result<Vec<Plane>, AssembleError> {
         let height = self.floor_z + CUT_PART * (self.top_z - self.floor_z);
         let walls = self.faces().filter_map(|(kind, corners)| match kind {
             FaceKind::Wall(facing) => Some(slice::cut(&corners, facing, height)),
             _ => None,
         });
-        walls.flatten().collect()
+        let cut: Vec<Plane> = walls.flatten().collect();
+        let above_floor = height - self.floor_z;
+        if cut.is_empty() { Err(AssembleError::NothingCut { height: above_floor }) } else { Ok(cut) }
     }
 
     fn surface(&self, frame: &Frame, bounds: Bounds, openings: &[Plane], wall_height: f64) -> SurfaceMesh {
@@ -216,7 +246,7 @@ fn corners(mesh: &PolygonMesh, face: &[u32]) -> Vec<Vector3<f64>> {
 
 /// Height of the floor, of the wall tops, and whether there is a floor at all.
 ///
-/// The floor is the largest upward level in the lower four fifths of the walls' range, else the walls' lower end.
+/// The floor is the largest upward level from the walls' lower end to four fifths of their height, else their lower end.
 fn levels(mesh: &PolygonMesh, kinds: &[FaceKind], areas: &[f64]) -> (f64, f64, bool) {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let mut upward: Vec<(f64, f64)> = Vec::new(); // (z, area)
@@ -235,7 +265,7 @@ fn levels(mesh: &PolygonMesh, kinds: &[FaceKind], areas: &[f64]) -> (f64, f64, b
     upward.sort_by(|a, b| a.0.total_cmp(&b.0));
     let floor = upward
         .chunk_by(|a, b| b.0 - a.0 <= near)
-        .filter(|level| level[0].0 < high - 0.2 * (high - low))
+        .filter(|level| low - near <= level[0].0 && level[0].0 < high - 0.2 * (high - low))
         .map(|level| (level[level.len() / 2].0, level.iter().map(|(_, area)| area).sum::<f64>()))
         .max_by(|a, b| a.1.total_cmp(&b.1));
     match floor {
@@ -285,13 +315,18 @@ impl Way {
 
     fn between_doors(reach: &Reach, doors: &[(Vector2<f64>, usize)], unjoined: [Vector2<f64>; 2]) -> Self {
         let mut longest = None;
-        for (index, (from, cell)) in doors.iter().enumerate() {
-            let distances = reach.distances_from(*cell);
-            for (to, cell) in &doors[index + 1..] {
-                let distance = distances.to(*cell);
-                if distance.is_finite() && longest.is_none_or(|(known, _, _)| known < distance) {
-                    longest = Some((distance, *from, *to));
-                }
+        let mut seen = vec![false; doors.len()];
+        for _ in 0..MAX_REGIONS {
+            let Some(first) = seen.iter().position(|seen| !seen) else { break };
+            // Two sweeps: the farthest from anywhere is one end of the longest way (exact where ways do not branch).
+            let from_first = reach.distances_from(doors[first].1);
+            for (seen, (_, cell)) in seen.iter_mut().zip(doors) {
+                *seen |= from_first.to(*cell).is_finite();
+            }
+            let (_, one) = farthest_door(&from_first, doors);
+            let (distance, other) = farthest_door(&reach.distances_from(doors[one].1), doors);
+            if one != other && longest.is_none_or(|(known, _, _)| known < distance) {
+                longest = Some((distance, doors[one].0, doors[other].0));
             }
         }
         match longest {
@@ -306,4 +341,14 @@ impl Way {
         let (start, goal) = if swap { (b, a) } else { (a, b) };
         Self { start, goal, solvable }
     }
+}
+
+/// Distance and index of the farthest door that has a way, the first one on a tie.
+fn farthest_door(distances: &Distances, doors: &[(Vector2<f64>, usize)]) -> (f64, usize) {
+    let reached = doors.iter().enumerate().map(|(index, (_, cell))| (distances.to(*cell), index));
+    reached
+        .filter(|(distance, _)| distance.is_finite())
+        .rev()
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .unwrap_or((0.0, 0))
 }

@@ -2,12 +2,21 @@
 
 use nalgebra::Vector2;
 
-/// A number from outside was NaN or infinite.
+/// A number from outside is not usable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what} is not finite")]
-pub struct NonFinite {
-    /// What the number meant.
+#[error("{what}: expected {expected}")]
+pub struct OutOfRange {
+    /// What the number means.
     pub what: &'static str,
+    /// Which numbers are usable.
+    pub expected: &'static str,
+}
+
+impl OutOfRange {
+    /// NaN or infinite.
+    pub const fn not_finite(what: &'static str) -> Self {
+        Self { what, expected: "a finite number" }
+    }
 }
 
 /// A ball radius (maze units): finite and greater than zero.
@@ -42,12 +51,12 @@ impl Ball {
     }
 
     /// The ball itself, or which part of it is not finite.
-    pub fn checked(self) -> Result<Self, NonFinite> {
+    pub fn checked(self) -> Result<Self, OutOfRange> {
         let finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
         match (finite(self.position), finite(self.velocity)) {
             (true, true) => Ok(self),
-            (false, _) => Err(NonFinite { what: "the ball's position" }),
-            (true, false) => Err(NonFinite { what: "the ball's velocity" }),
+            (false, _) => Err(OutOfRange::not_finite("the ball's position")),
+            (true, false) => Err(OutOfRange::not_finite("the ball's velocity")),
         }
     }
 }
@@ -70,6 +79,15 @@ impl BallSpec {
     pub const ROLLING_SPHERE: f64 = 5.0 / 7.0;
     /// The report's restitution.
     pub const RESTITUTION: f64 = 0.8;
+    /// The spec itself, or which of its numbers is out of range.
+    pub fn checked(self) -> Result<Self, OutOfRange> {
+        let part = |what| OutOfRange { what, expected: "a part, 0 to 1" };
+        if !(0.0..=1.0).contains(&self.restitution) {
+            return Err(part("the restitution"));
+        }
+        if !(0.0..=1.0).contains(&self.rolling) { Err(part("the rolling factor")) } else { Ok(self) }
+    }
+
     /// The usual radius: large enough to be seen, and corridors stay wide enough to bounce in.
     pub const RADIUS: Radius = Radius(0.35);
 }

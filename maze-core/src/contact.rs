@@ -2,6 +2,7 @@
 
 use crate::ball::{Ball, BallSpec};
 use crate::plane::Plane;
+use crate::sorted_planes::is_within;
 use nalgebra::Vector2;
 
 /// A ball that overlaps a plane.
@@ -13,7 +14,7 @@ pub struct Contact {
     pub closest: Vector2<f64>,
     /// From the centre to `closest` (units), less than the radius.
     pub distance: f64,
-    /// Radius - distance (units), greater than 0.
+    /// Radius - distance (units), 0 or more.
     pub penetration: f64,
 }
 
@@ -39,12 +40,11 @@ pub fn closest_point(centre: Vector2<f64>, plane: &Plane) -> Vector2<f64> {
 /// Steps 2 and 3: the contact, if the closest point is nearer than the radius.
 pub fn find(centre: Vector2<f64>, radius: f64, plane: &Plane) -> Option<Contact> {
     let closest = closest_point(centre, plane);
-    let distance = (centre - closest).norm();
-    (distance < radius).then_some(Contact {
-        plane: *plane,
-        closest,
-        distance,
-        penetration: radius - distance,
+    let from_closest = centre - closest;
+    // The very test of the search: what it finds is a contact.
+    is_within(from_closest.x, from_closest.y, radius).then(|| {
+        let distance = from_closest.norm();
+        Contact { plane: *plane, closest, distance, penetration: radius - distance }
     })
 }
 

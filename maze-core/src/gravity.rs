@@ -46,7 +46,7 @@ impl Tilt {
     /// The board lies flat.
     pub const LEVEL: Self = Self { towards_x: 0, towards_y: 0 };
 
-    /// One step of a half-angle tangent: 0.0035 degrees, an eighth of what a mouse pixel turns.
+    /// One step of a half-angle tangent: 0.0035 degrees, far finer than the 0.16 degrees of a mouse pixel.
     pub const STEP: f64 = 1.0 / 32_768.0;
 
     /// The nearest tilt whose half-angle tangents are these; beyond ±1 (90 degrees) and for NaN it saturates or is 0.

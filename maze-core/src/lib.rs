@@ -8,8 +8,7 @@
 //!   world coordinates.
 //! - **Units**: the commonest corridor is 1 maze unit wide; seconds; hence g = 9.81 units/s².
 //! - **Ball**: a circle in the maze plane, held on the floor. That z is trivial is the method's central relaxation.
-//! - **Ranges**: everything is `f64` and must be finite. Boards up to 10⁴ units across and speeds up to 10⁴ units/s keep
-//!   rounding below 1e-11 units.
+//! - **Ranges**: everything is `f64` and must be finite; what is not is refused.
 //!
 //! # Invariants
 //!
@@ -57,7 +56,7 @@ mod sorted_planes;
 pub mod surface;
 
 pub use assemble::{AssembleError, AssembleOptions};
-pub use ball::{Ball, BallSpec, NonFinite, Radius};
+pub use ball::{Ball, BallSpec, OutOfRange, Radius};
 pub use engine::{Engine, Published, Tick};
 pub use gravity::Tilt;
 pub use layout::Layout;

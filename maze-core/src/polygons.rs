@@ -33,6 +33,14 @@ impl UpAxis {
     }
 }
 
+/// Twice the area of a polygon as a vector along its normal (Newell's method: exact for flat polygons, a mean for others).
+///
+/// Taken from the first corner, so that a polygon far from the origin loses no digits.
+pub(crate) fn doubled_area(corners: &[Vector3<f64>]) -> Vector3<f64> {
+    let Some(&first) = corners.first() else { return Vector3::zeros() };
+    corners.windows(2).map(|pair| (pair[0] - first).cross(&(pair[1] - first))).sum()
+}
+
 /// Polygons of any number of corners, counter-clockwise seen from outside.
 /// Invariant: every corner is an index into `positions`, and every position is finite.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -17,14 +17,15 @@ pub(crate) struct Reach {
 /// Length of the way to every cell (units, from centre to centre); infinite where there is none.
 pub(crate) struct Distances(Vec<f64>);
 
-/// Widest cell (units): half a corridor, so that the ends of a bare corridor are cells of their own ...
-const MAX_CELL: f64 = 0.5;
+/// Widest cell (units): a corridor, so that the ends of a bare one are cells of their own, and its middle stays whole ...
+const MAX_CELL: f64 = 1.0;
 /// ... unless the board is so wide that it would take more pieces than this.
 const MAX_PIECES: f64 = 4096.0;
 
 /// The coordinates with wide gaps split evenly.
 fn split(coordinates: &[f64]) -> Vec<f64> {
-    let extent = coordinates[coordinates.len() - 1] - coordinates[0];
+    let (Some(low), Some(high)) = (coordinates.first(), coordinates.last()) else { return vec![0.0] };
+    let extent = high - low;
     let widest = if MAX_CELL * MAX_PIECES < extent { extent / MAX_PIECES } else { MAX_CELL };
     let mut pieces = Vec::with_capacity(coordinates.len());
     for pair in coordinates.windows(2) {
@@ -49,8 +50,8 @@ impl Reach {
                 values.iter().flat_map(|value| [value - radius, value + radius]).collect();
             grown.sort_by(f64::total_cmp);
             grown.dedup();
-            // The outermost ones lie outside the board.
-            split(&grown[1..grown.len() - 1])
+            // The outermost ones lie outside the board; between the others nothing is left when the ball is too large.
+            split(grown.get(1..grown.len().saturating_sub(1)).unwrap_or_default())
         };
         let (xs, ys) = (grown(&section.xs), grown(&section.ys));
         let n_solid = SolidCounts::new(section);

@@ -63,11 +63,11 @@ impl Run {
         self.n_ticks
     }
 
-    /// Takes note of one tick: the tilt it was made under, where the ball is after it, and what the engine reported.
+    /// Takes note of one tick: the tilt it was made under, the ball's way in it, and what the engine reported.
     pub fn observe(
         &mut self,
         tilt: Tilt,
-        position: Vector2<f64>,
+        [from, to]: [Vector2<f64>; 2],
         tick: &Tick,
     ) -> impl Iterator<Item = Event> {
         let mut events = [None; 3];
@@ -76,17 +76,26 @@ impl Run {
             events[0] = Some(Event::Started);
         }
         if 0 < tick.n_hits {
-            events[1] = Some(Event::Bounced(tick.hardest_hit));
+            events[1] = Some(Event::Bounced(tick.hardest_hit_speed));
         }
         if self.phase == Phase::Playing {
             self.n_ticks += 1;
-            if (position - self.goal).norm() < self.goal_radius {
+            // The whole way counts: a fast ball must not jump over the goal between two ticks.
+            if distance_to_segment(self.goal, from, to) < self.goal_radius {
                 self.phase = Phase::Finished;
                 events[2] = Some(Event::Finished(self.n_ticks));
             }
         }
         events.into_iter().flatten()
     }
+}
+
+/// From a point to the nearest point of a segment.
+fn distance_to_segment(point: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+    let way = to - from;
+    let length_squared = way.norm_squared();
+    let part = if 0.0 < length_squared { (point - from).dot(&way) / length_squared } else { 0.0 };
+    (point - (from + way * part.clamp(0.0, 1.0))).norm()
 }
 
 #[cfg(test)]
@@ -99,24 +108,35 @@ mod tests {
 
     const TILTED: Tilt = Tilt { towards_x: 100, towards_y: 0 };
 
+    fn still(x: f64) -> [Vector2<f64>; 2] {
+        [Vector2::new(x, 0.0); 2]
+    }
+
     #[test]
     fn clock_starts_with_the_first_tilt_and_stops_at_the_goal() {
         let mut run = run();
         let quiet = Tick::default();
-        assert_eq!(run.observe(Tilt::LEVEL, Vector2::zeros(), &quiet).count(), 0);
+        assert_eq!(run.observe(Tilt::LEVEL, still(0.0), &quiet).count(), 0);
         assert_eq!((run.phase(), run.n_ticks()), (Phase::Ready, 0));
-        assert_eq!(run.observe(TILTED, Vector2::zeros(), &quiet).collect::<Vec<_>>(), [Event::Started]);
-        assert_eq!(run.observe(Tilt::LEVEL, Vector2::new(2.0, 0.0), &quiet).count(), 0);
-        let events: Vec<_> = run.observe(TILTED, Vector2::new(2.8, 0.0), &quiet).collect();
+        assert_eq!(run.observe(TILTED, still(0.0), &quiet).collect::<Vec<_>>(), [Event::Started]);
+        assert_eq!(run.observe(Tilt::LEVEL, still(2.0), &quiet).count(), 0);
+        let events: Vec<_> = run.observe(TILTED, still(2.8), &quiet).collect();
         assert_eq!(events, [Event::Finished(3)]);
-        assert_eq!(run.observe(TILTED, Vector2::new(9.0, 0.0), &quiet).count(), 0);
+        assert_eq!(run.observe(TILTED, still(9.0), &quiet).count(), 0);
         assert_eq!((run.phase(), run.n_ticks()), (Phase::Finished, 3));
     }
 
     #[test]
+    fn a_ball_that_jumps_over_the_goal_in_one_tick_has_reached_it() {
+        let way = |y: f64| [Vector2::new(1.0, y), Vector2::new(5.0, y)];
+        assert_eq!(run().observe(TILTED, way(0.5), &Tick::default()).count(), 1);
+        assert_eq!(run().observe(TILTED, way(0.3), &Tick::default()).count(), 2);
+    }
+
+    #[test]
     fn bounces_are_events() {
-        let tick = Tick { n_hits: 1, hardest_hit: 2.5, ..Tick::default() };
-        let events: Vec<_> = run().observe(Tilt::LEVEL, Vector2::zeros(), &tick).collect();
+        let tick = Tick { n_hits: 1, hardest_hit_speed: 2.5, ..Tick::default() };
+        let events: Vec<_> = run().observe(Tilt::LEVEL, still(0.0), &tick).collect();
         assert_eq!(events, [Event::Bounced(2.5)]);
     }
 }

@@ -12,11 +12,14 @@ use std::collections::BTreeMap;
 /// decimals (1e-6) and the thinnest wall of a maze of a thousand corridors (1e-4).
 const MERGE_PART: f64 = 1.0e-5;
 
-/// Most rectangles of a plan: 8192 x 8192, a maze of 4000 x 4000 cells. Above it a file is not worth its memory.
-const MAX_CELLS: usize = 1 << 26;
+/// Most rectangles of a plan: 2048 x 2048, a maze of 1000 x 1000 cells. It takes some 200 MB to find the way through one.
+const MAX_CELLS: usize = 1 << 22;
+
+/// Percent of the walls' length that may be faces without thickness, which are no walls, before the file is refused.
+const MAX_SHEET_PERCENT: f64 = 1.0;
 
 /// Percent of the plan that may look solid from two sides and free from the other two before the walls count as open.
-/// A careless modeller's forgotten face stays below it; sheets without thickness do not.
+/// A careless modeller's forgotten face stays below it.
 const MAX_TIED_PERCENT: f64 = 1.0;
 
 /// Why wall faces make no ground plan.
@@ -29,6 +32,19 @@ pub enum SectionError {
     )]
     Open {
         /// Share of the plan's area.
+        percent: f64,
+        /// File units, up axis turned to z.
+        x: f64,
+        /// File units, up axis turned to z.
+        y: f64,
+    },
+    /// Walls without thickness.
+    #[error(
+        "{percent:.1} % of the walls' length has no thickness, first near ({x}, {y}) across the up axis; expected walls \
+         with two sides that stand apart"
+    )]
+    Sheets {
+        /// Share of the length of all wall faces.
         percent: f64,
         /// File units, up axis turned to z.
         x: f64,
@@ -135,7 +151,9 @@ impl Section {
             let n_cells = [n_x - 1, n_y - 1];
             votes(&edges, &used, axis, n_cells[axis], n_cells[1 - axis])
         });
-        Self::from_votes(xs, ys, &votes)
+        let section = Self::from_votes(xs, ys, &votes)?;
+        section.refuse_sheets(&edges, &used)?;
+        Ok(section)
     }
 
     /// `votes[0][j * n_x + i]` and `votes[1][i * n_y + j]` say how often cell (i, j) looked solid, 0 to 2 times each.
@@ -164,6 +182,33 @@ impl Section {
         match first_tie {
             Some((x, y)) if MAX_TIED_PERCENT < percent => Err(SectionError::Open { percent, x, y }),
             _ => Ok(section),
+        }
+    }
+
+    /// Refuses wall faces that part nothing from nothing: both sides at one place, or one side alone.
+    fn refuse_sheets(&self, edges: &[Edge], used: &[Vec<Option<usize>>; 2]) -> Result<(), SectionError> {
+        let (mut length, mut sheets, mut first) = (0.0, 0.0, None);
+        for run in [0, 1].into_iter().flat_map(|axis| runs(edges, used, axis)) {
+            let alongs = if run.axis == 0 { &self.ys } else { &self.xs };
+            for across in run.across {
+                let extent = alongs[across + 1] - alongs[across];
+                length += extent;
+                // The frame is no wall here: beyond it all is free.
+                let n_steps = self.n_cells()[run.axis];
+                let is_free = |step: usize| {
+                    step == 0 || n_steps < step || !self.is_solid_framed(run.axis, step, across)
+                };
+                if is_free(run.step) && is_free(run.step + 1) {
+                    sheets += extent;
+                    let (i, j) = if run.axis == 0 { (run.step, across) } else { (across, run.step) };
+                    first = first.or(Some((self.xs[i], self.ys[j])));
+                }
+            }
+        }
+        let percent = 100.0 * sheets / length;
+        match first {
+            Some((x, y)) if MAX_SHEET_PERCENT < percent => Err(SectionError::Sheets { percent, x, y }),
+            _ => Ok(()),
         }
     }
 
@@ -308,6 +353,35 @@ fn used_coordinates(edges: &[Edge], coordinates: &[Coordinates; 2]) -> [Vec<Opti
     used
 }
 
+/// A stretch of wall faces in one row.
+struct FaceRun {
+    axis: usize,
+    /// Index of the coordinate across which they stand.
+    step: usize,
+    /// The cells along which.
+    across: std::ops::Range<usize>,
+    /// How many walls are entered there on the way up, less those left.
+    change: i32,
+}
+
+/// All stretches of faces across an axis; where faces of a facing overlap they count together.
+fn runs(edges: &[Edge], used: &[Vec<Option<usize>>; 2], axis: usize) -> impl Iterator<Item = FaceRun> {
+    let same_row = |a: &Edge, b: &Edge| (a.facing, a.offset) == (b.facing, b.offset);
+    edges.chunk_by(same_row).filter(move |row| row[0].facing.axis() == axis).flat_map(move |row| {
+        let enters = if row[0].facing.sign() < 0.0 { 1 } else { -1 };
+        let depths = row.iter().scan(0, |depth, edge| {
+            *depth += edge.change;
+            Some(*depth)
+        });
+        row.windows(2).zip(depths).filter_map(move |(pair, depth)| {
+            let index = |along: usize| used[1 - axis][along];
+            let across = index(pair[0].along)?..index(pair[1].along)?;
+            let step = used[axis][pair[0].offset]?;
+            (depth != 0).then_some(FaceRun { axis, step, across, change: enters * depth })
+        })
+    })
+}
+
 /// How often each cell looks solid by the faces across `axis`, coming from the low side and coming from the high side:
 /// `[across * n_steps + step]`, 0 to 2. The two differ only on a line where a face is missing or extra.
 fn votes(
@@ -319,20 +393,9 @@ fn votes(
 ) -> Vec<u8> {
     // Change of the winding number at each coordinate, `n_steps + 1` of them a line.
     let mut changes = vec![0; (n_steps + 1) * n_across];
-    let of_axis = edges.iter().filter(|edge| edge.facing.axis() == axis).collect::<Vec<_>>();
-    for row in of_axis.chunk_by(|a, b| (a.facing, a.offset) == (b.facing, b.offset)) {
-        let Some(step) = used[axis][row[0].offset] else { continue };
-        let enters = if row[0].facing.sign() < 0.0 { 1 } else { -1 };
-        let mut depth = 0;
-        for pair in row.windows(2) {
-            depth += pair[0].change;
-            let [Some(from), Some(to)] = [pair[0].along, pair[1].along].map(|along| used[1 - axis][along])
-            else {
-                continue;
-            };
-            for across in from..to {
-                changes[across * (n_steps + 1) + step] += enters * depth;
-            }
+    for run in runs(edges, used, axis) {
+        for across in run.across {
+            changes[across * (n_steps + 1) + run.step] += run.change;
         }
     }
     let mut votes = Vec::with_capacity(n_steps * n_across);
@@ -450,6 +513,15 @@ mod tests {
             let section = Section::new(&raw).unwrap();
             assert_eq!(SortedPlanes::new(section.faces()).unwrap(), whole, "without face {missing}");
         }
+    }
+
+    #[test]
+    fn walls_without_thickness_are_refused_with_the_place() {
+        let mut raw = ring().concat();
+        raw.push(Plane { facing: Facing::MinusX, offset: 2.5, start: 1.0, end: 3.0 });
+        raw.push(Plane { facing: Facing::PlusX, offset: 2.5, start: 1.0, end: 3.0 });
+        let error = Section::new(&raw).unwrap_err();
+        assert!(matches!(error, SectionError::Sheets { x: 2.5, y: 1.0, .. }), "{error}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Faces sorted into wall, upward and downward; upright faces cut at one height into planes.
 
 use crate::plane::{Facing, Plane};
+use crate::polygons::doubled_area;
 use nalgebra::Vector3;
 
 /// Cosine of the steepest angle by which a face may lean off its axis and still count as axis-aligned: 1 degree.
@@ -25,10 +26,9 @@ pub(crate) enum FaceKind {
     Degenerate,
 }
 
-/// Kind and area of a polygon, by Newell's normal (exact for flat polygons, an average for others).
+/// Kind and area of a polygon; `mesh_size` is the largest extent of the mesh.
 pub(crate) fn classify(polygon: &[Vector3<f64>], mesh_size: f64) -> (FaceKind, f64) {
-    let next = polygon.iter().cycle().skip(1);
-    let doubled: Vector3<f64> = polygon.iter().zip(next).map(|(a, b)| a.cross(b)).sum();
+    let doubled = doubled_area(polygon);
     let area = doubled.norm() / 2.0;
     if area <= DEGENERATE_AREA * mesh_size * mesh_size {
         return (FaceKind::Degenerate, area);

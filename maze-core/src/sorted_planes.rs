@@ -99,8 +99,8 @@ impl SortedPlanes {
 
     /// The first plane of one group, met in its direction of motion, whose closest point lies nearer than `radius`.
     ///
-    /// Rows are met nearest first: ascending offsets for faces that look towards minus (the ball moves towards plus),
-    /// descending otherwise. Within a row the interval nearest to the centre wins, the lower one on a tie.
+    /// Rows are met in the direction of motion: ascending offsets for faces that look towards minus (the ball moves towards
+    /// plus), descending otherwise. A face that the centre has passed by less than the radius still counts. Within a row the interval nearest to the centre wins, the lower one on a tie.
     /// Needs a finite `centre` and `radius`. O(log n) for each row that lies within reach.
     pub fn first_overlap(&self, facing: Facing, centre: Vector2<f64>, radius: f64) -> Option<Plane> {
         let group = self.group(facing);
@@ -139,7 +139,7 @@ impl SortedPlanes {
 }
 
 /// Whether a point that far away along two axes is nearer than `radius`.
-fn is_within(across: f64, along: f64, radius: f64) -> bool {
+pub(crate) fn is_within(across: f64, along: f64, radius: f64) -> bool {
     across * across + along * along < radius * radius
 }
 

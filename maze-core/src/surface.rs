@@ -2,6 +2,7 @@
 
 use crate::maze::Bounds;
 use crate::plane::Plane;
+use crate::polygons::doubled_area;
 use earcut::Earcut;
 use nalgebra::Vector3;
 
@@ -67,12 +68,7 @@ const DOORSTEP_DROP: f64 = 0.01;
 impl SurfaceBuilder {
     /// A flat polygon of any shape, counter-clockwise seen from outside. One without area adds nothing.
     pub(crate) fn polygon(&mut self, surface: Surface, corners: &[Vector3<f64>]) {
-        let next = corners.iter().cycle().skip(1);
-        let Some(normal) =
-            corners.iter().zip(next).map(|(a, b)| a.cross(b)).sum::<Vector3<f64>>().try_normalize(0.0)
-        else {
-            return;
-        };
+        let Some(normal) = doubled_area(corners).try_normalize(0.0) else { return };
         // Seen along the axis that the normal follows most, in a right-handed pair of the other two.
         let axis = normal.iamax();
         let [mut u, mut v] = [(axis + 1) % 3, (axis + 2) % 3];

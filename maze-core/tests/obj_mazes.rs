@@ -74,6 +74,52 @@ fn y_up_is_the_same_maze_and_not_its_mirror_image() {
     assert_eq!((y_up.start, y_up.goal), (z_up.start, z_up.goal));
 }
 
+/// The room with every coordinate moved.
+fn moved(scale: f64, offset: [f64; 3]) -> String {
+    let line = |line: &str| match line.strip_prefix("v ") {
+        Some(numbers) => {
+            let numbers: Vec<f64> = numbers.split(' ').map(|word| word.parse().unwrap()).collect();
+            let [x, y, z] = [0, 1, 2].map(|axis| numbers[axis] * scale + offset[axis]);
+            format!("v {x} {y} {z}\n")
+        }
+        None => format!("{line}\n"),
+    };
+    room().lines().map(line).collect()
+}
+
+#[test]
+fn a_maze_may_lie_far_from_the_origin_and_be_of_any_size() {
+    let here = loaded(&room());
+    for (scale, offset) in [(1.0, [1.0e6, -1.0e6, 512.0]), (1.0e6, [0.0; 3]), (1.0e-6, [0.0; 3])] {
+        let there = loaded(&moved(scale, offset));
+        let counts = |maze: &Maze| Facing::ALL.map(|facing| maze.planes.n_planes(facing));
+        assert_eq!(counts(&there), counts(&here), "{scale} {offset:?}");
+        assert!((there.goal - here.goal).norm() < 1.0e-6);
+    }
+    for scale in [1.0e90, 1.0e-90] {
+        let error = load(&moved(scale, [0.0; 3]), &AssembleOptions::default()).unwrap_err();
+        assert!(error.contains("units large: expected 1e-12 to 1e12"), "{error}");
+    }
+}
+
+#[test]
+fn a_ground_far_below_the_walls_is_not_their_floor() {
+    let ground = "v -99 -99 -10\nv 99 -99 -10\nv 99 99 -10\nv -99 99 -10\nf -4 -3 -2 -1\n";
+    let maze = load(&(room() + ground), &AssembleOptions { up_axis: Some(UpAxis::Z), ..Default::default() })
+        .unwrap();
+    assert!(!maze.has_floor, "one is laid at the walls' feet");
+    assert_eq!(maze.planes, loaded(&room()).planes);
+}
+
+#[test]
+fn a_ball_of_any_size_is_answered() {
+    for radius in [1.0e-300, 1.0e-9, 0.6, 1.0e17, 1.0e300] {
+        let options = AssembleOptions { ball_radius: Radius::new(radius), ..Default::default() };
+        let result = load(&room(), &options);
+        assert_eq!(result.is_ok(), radius < 0.5, "{radius}: {:?}", result.err());
+    }
+}
+
 #[test]
 fn every_surface_is_drawn() {
     let maze = loaded(&room());

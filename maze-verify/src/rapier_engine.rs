@@ -1,6 +1,6 @@
 //! rapier3d as a [`maze_core::Engine`].
 
-use maze_core::{Ball, BallSpec, Bounds, Engine, NonFinite, Tick};
+use maze_core::{Ball, BallSpec, Bounds, Engine, OutOfRange, Tick};
 use nalgebra::Vector2;
 use rapier3d::prelude::*;
 
@@ -29,8 +29,8 @@ impl RapierEngine {
         spec: BallSpec,
         ball: Ball,
         tick_s: f64,
-    ) -> Result<Self, NonFinite> {
-        let ball = ball.checked()?;
+    ) -> Result<Self, OutOfRange> {
+        let (ball, spec) = (ball.checked()?, spec.checked()?);
         let restitution = to_f32(spec.restitution);
         let mut world = PhysicsWorld::default();
         world.integration_parameters.dt = to_f32(tick_s);
@@ -64,9 +64,9 @@ impl RapierEngine {
 
 impl Engine for RapierEngine {
     /// `n_hits` is 1 when a velocity component changed its sign against the acceleration, as only a bounce makes it.
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, NonFinite> {
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
         if !acceleration.iter().all(|value| value.is_finite()) {
-            return Err(NonFinite { what: "the acceleration" });
+            return Err(OutOfRange::not_finite("the acceleration"));
         }
         let before = self.ball().velocity;
         self.world.gravity = in_plane(acceleration * self.spec.rolling);
@@ -75,13 +75,13 @@ impl Engine for RapierEngine {
         let bounced =
             |axis: usize| before[axis] * after[axis] < 0.0 && 0.0 <= before[axis] * acceleration[axis];
         let speeds = [0, 1].into_iter().filter(|axis| bounced(*axis)).map(|axis| before[axis].abs());
-        let hardest_hit = speeds.fold(0.0, f64::max);
+        let hardest_hit_speed = speeds.fold(0.0, f64::max);
         Ok(Tick {
             n_steps: 1,
-            n_hits: u32::from(0.0 < hardest_hit),
-            hardest_hit,
+            n_hits: u32::from(0.0 < hardest_hit_speed),
+            hardest_hit_speed,
             deepest_penetration: self.penetration(),
-            dropped_s: 0.0,
+            ..Tick::default()
         })
     }
 
@@ -91,7 +91,7 @@ impl Engine for RapierEngine {
         Ball { position: planar(body.translation()), velocity: planar(body.linvel()) }
     }
 
-    fn place(&mut self, ball: Ball) -> Result<(), NonFinite> {
+    fn place(&mut self, ball: Ball) -> Result<(), OutOfRange> {
         let ball = ball.checked()?;
         let body = &mut self.world.bodies[self.body];
         body.set_translation(in_plane(ball.position), true);

@@ -4,7 +4,7 @@ pub mod published;
 
 pub use published::Published;
 
-use crate::ball::{Ball, BallSpec, NonFinite};
+use crate::ball::{Ball, BallSpec, OutOfRange};
 use nalgebra::Vector2;
 
 /// What happened within one tick.
@@ -15,7 +15,9 @@ pub struct Tick {
     /// Contacts that changed the velocity.
     pub n_hits: u32,
     /// Largest normal speed of a hit (units/s): how loud it was.
-    pub hardest_hit: f64,
+    pub hardest_hit_speed: f64,
+    /// Steps that ended with a wall still overlapped, because the bound on contacts was reached.
+    pub n_unresolved: u32,
     /// Deepest penetration met before push-out (units).
     pub deepest_penetration: f64,
     /// Time that was not simulated because a bound was reached (s).
@@ -30,7 +32,7 @@ pub trait Engine {
     ///
     /// # Errors
     /// An acceleration that is not finite; the ball stays as it was.
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, NonFinite>;
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange>;
 
     /// Where the ball is now.
     fn ball(&self) -> Ball;
@@ -39,7 +41,7 @@ pub trait Engine {
     ///
     /// # Errors
     /// A position or velocity that is not finite; the ball stays as it was.
-    fn place(&mut self, ball: Ball) -> Result<(), NonFinite>;
+    fn place(&mut self, ball: Ball) -> Result<(), OutOfRange>;
 
     /// What the ball is made of.
     fn spec(&self) -> &BallSpec;

@@ -2,6 +2,7 @@
 
 use crate::polygons::PolygonMesh;
 use nalgebra::Vector3;
+use std::fmt::Write;
 use tobj::{LoadError, LoadOptions};
 
 /// Why bytes are no OBJ.
@@ -42,13 +43,27 @@ pub enum ObjError {
         /// In the whole file.
         n_vertices: usize,
     },
-    /// The file ends in the middle of a line, and faces for its last vertices are missing.
-    #[error("line {line}: the file is cut off here: no face uses the last of its {n_vertices} vertices")]
-    CutOff {
+    /// A face that is no polygon, or one too large to cut into triangles.
+    #[error("line {line}: a face of {n_corners} corners: expected 3 to {max}", max = MAX_CORNERS)]
+    Corners {
         /// Counted from 1.
         line: usize,
-        /// In the whole file.
-        n_vertices: usize,
+        /// How many.
+        n_corners: usize,
+    },
+    /// A face that runs in circles.
+    #[error("line {line}: a face names vertex {vertex} more than {max} times", max = MAX_REPEATS)]
+    Repeated {
+        /// Counted from 1.
+        line: usize,
+        /// Counted from 1.
+        vertex: usize,
+    },
+    /// Faces for the last vertices are missing.
+    #[error("line {line}: the file is cut off here: faces for its last vertices are missing")]
+    CutOff {
+        /// The last one, counted from 1.
+        line: usize,
     },
     /// Anything else that the reader refuses.
     #[error("not a Wavefront OBJ: {reason}")]
@@ -57,6 +72,13 @@ pub enum ObjError {
         reason: String,
     },
 }
+
+/// Most corners of a face: cutting a larger one into triangles takes seconds, and no wall has as many.
+const MAX_CORNERS: usize = 4096;
+
+/// How often a face may name a vertex. A polygon with holes names the ends of the bridges to them twice; one that goes round
+/// and round would take minutes to cut into triangles.
+const MAX_REPEATS: usize = 4;
 
 /// Polygons of an OBJ file; objects and groups are joined, lines, points, normals and materials are not looked at.
 ///
@@ -71,108 +93,119 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
     }
     // Names and comments may be in any old encoding.
     let text = String::from_utf8_lossy(bytes);
+    let geometry = geometry(&text)?;
     let options = LoadOptions { ignore_lines: true, ignore_points: true, ..LoadOptions::default() };
     let no_materials = |_: &std::path::Path| Err(LoadError::OpenFileFailed);
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, no_materials)
-        .map_err(|error| locate(&text, error))?;
-    if let Some(error) = cut_off(&text) {
-        return Err(error);
-    }
-    let n_positions: usize = models.iter().map(|model| model.mesh.positions.len() / 3).sum();
-    let mut positions = Vec::with_capacity(n_positions);
-    for model in &models {
-        positions.extend(model.mesh.positions.chunks_exact(3).map(|p| Vector3::new(p[0], p[1], p[2])));
-    }
-    let other = |reason: &str| ObjError::Other { reason: reason.to_owned() };
-    let mut mesh = PolygonMesh::new(positions).ok_or_else(|| locate(&text, LoadError::PositionParseError))?;
-    let mut base = 0;
-    for model in &models {
-        let arities = &model.mesh.face_arities;
-        let mut rest = &model.mesh.indices[..];
-        let mut arities = arities.iter().map(|arity| *arity as usize);
-        while !rest.is_empty() {
-            // Without arities every face is a triangle.
-            let n_corners = arities.next().unwrap_or(3);
-            let (face, tail) =
-                rest.split_at_checked(n_corners).ok_or_else(|| other("a face is cut short"))?;
-            let corners: Vec<u32> = face.iter().map(|corner| base + corner).collect();
-            if !mesh.push_face(&corners) {
-                return Err(other("a face uses a vertex that is not defined"));
-            }
-            rest = tail;
-        }
-        // `PolygonMesh::new` has checked that all positions together can be counted by a u32.
-        base += u32::try_from(model.mesh.positions.len() / 3).unwrap_or(u32::MAX);
+    let other = |reason: String| ObjError::Other { reason };
+    let (models, _) = tobj::load_obj_buf(&mut geometry.as_bytes(), &options, no_materials)
+        .map_err(|error| other(error.to_string()))?;
+    // Without objects and groups there is one model at most.
+    let Some(model) = models.first() else { return Ok(PolygonMesh::default()) };
+    let positions = model.mesh.positions.chunks_exact(3).map(|p| Vector3::new(p[0], p[1], p[2])).collect();
+    let mut mesh = PolygonMesh::new(positions).ok_or_else(|| other("too many vertices".to_owned()))?;
+    let mut rest = &model.mesh.indices[..];
+    let mut arities = model.mesh.face_arities.iter().map(|arity| *arity as usize);
+    while !rest.is_empty() {
+        // Without arities every face is a triangle.
+        let n_corners = arities.next().unwrap_or(3);
+        let Some((face, tail)) = rest.split_at_checked(n_corners).filter(|(face, _)| mesh.push_face(face))
+        else {
+            return Err(other(format!("a face of {n_corners} corners is cut short")));
+        };
+        debug_assert_eq!(face.len(), n_corners);
+        rest = tail;
     }
     Ok(mesh)
+}
+
+/// The lines that make the maze and nothing else, checked: vertices with three numbers, and faces with the vertex part of
+/// their indices. What the reader never sees cannot confuse it (it takes long `l` elements for faces), and each fault is
+/// told with its line.
+fn geometry(text: &str) -> Result<String, ObjError> {
+    let is_vertex = |line: &&str| line.split_whitespace().next() == Some("v");
+    let n_vertices = text.lines().filter(is_vertex).count();
+    let mut geometry = String::with_capacity(text.len());
+    let (mut n_so_far, mut last_used, mut n_faces) = (0, 0, 0_usize);
+    for (index, content) in text.lines().enumerate() {
+        let line = index + 1;
+        let found = || content.chars().take(60).collect::<String>();
+        let mut words = content.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let mut numbers =
+                    words.map(|word| word.parse::<f64>().ok().filter(|value| value.is_finite()));
+                let [Some(Some(x)), Some(Some(y)), Some(Some(z))] =
+                    [numbers.next(), numbers.next(), numbers.next()]
+                else {
+                    return Err(ObjError::Vertex { line, found: found() });
+                };
+                n_so_far += 1;
+                // Writing to a String cannot fail; f64 is written so that it reads back to the same bits.
+                let _ = writeln!(geometry, "v {x} {y} {z}");
+            }
+            Some("f") => {
+                n_faces += 1;
+                let mut corners = Vec::new();
+                for word in words {
+                    let vertex = word.split('/').next().and_then(|vertex| vertex.parse::<i64>().ok());
+                    let vertex = vertex.ok_or_else(|| ObjError::Face { line, found: found() })?;
+                    let absolute = absolute_index(vertex, n_so_far, n_vertices);
+                    let absolute =
+                        absolute.ok_or(ObjError::VertexOutOfRange { line, index: vertex, n_vertices })?;
+                    corners.push(absolute);
+                    last_used = if last_used < absolute { absolute } else { last_used };
+                }
+                if corners.len() < 3 || MAX_CORNERS < corners.len() {
+                    // The last line of a file that is cut off gets the truer reason below.
+                    if corners.len() < 3 && index + 1 == text.lines().count() && !text.ends_with('\n') {
+                        return Err(ObjError::CutOff { line });
+                    }
+                    return Err(ObjError::Corners { line, n_corners: corners.len() });
+                }
+                if let Some(vertex) = named_too_often(&corners) {
+                    return Err(ObjError::Repeated { line, vertex });
+                }
+                let words: Vec<String> = corners.iter().map(usize::to_string).collect();
+                let _ = writeln!(geometry, "f {}", words.join(" "));
+            }
+            _ => {}
+        }
+    }
+    match is_cut_off(text, n_faces, n_vertices - last_used, n_vertices) {
+        true => Err(ObjError::CutOff { line: text.lines().count() }),
+        false => Ok(geometry),
+    }
+}
+
+/// A corner that a face names more than [`MAX_REPEATS`] times.
+fn named_too_often(corners: &[usize]) -> Option<usize> {
+    let mut sorted = corners.to_vec();
+    sorted.sort_unstable();
+    sorted.chunk_by(|a, b| a == b).find(|same| MAX_REPEATS < same.len()).map(|same| same[0])
+}
+
+/// An index counted from 1, or back from the vertices so far; `None` when there is no such vertex.
+fn absolute_index(index: i64, n_so_far: usize, n_vertices: usize) -> Option<usize> {
+    let distance = usize::try_from(index.unsigned_abs()).ok()?;
+    if index < 0 {
+        return n_so_far.checked_sub(distance).map(|before| before + 1);
+    }
+    (1..=n_vertices).contains(&distance).then_some(distance)
 }
 
 /// Part of a file's vertices, at its end, that may be without a face in a whole file.
 const MAX_UNUSED_PART: f64 = 0.05;
 
-/// Whether a file that could be read is only the beginning of one.
-///
-/// The sign is a tail of vertices that no face uses: any at all when the last line does not end either (many good files
-/// lack the last line break, so that alone says nothing), more than a few otherwise.
-fn cut_off(text: &str) -> Option<ObjError> {
-    let (mut n_vertices, mut last_used, mut n_faces) = (0, 0, 0_usize);
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => n_vertices += 1,
-            Some("f") => {
-                n_faces += 1;
-                let indices = words.filter_map(|word| word.split('/').next()?.parse::<i64>().ok());
-                let absolute = indices.map(|index| if index < 0 { n_vertices + 1 + index } else { index });
-                last_used = absolute.chain([last_used]).max().unwrap_or(last_used);
-            }
-            _ => {}
-        }
-    }
+/// Whether a file that could be read is only the beginning of one: faces for many of its last vertices are missing, or for
+/// any of them where the last line does not end either (many good files lack the last line break, so that alone says
+/// nothing).
+fn is_cut_off(text: &str, n_faces: usize, n_unused: usize, n_vertices: usize) -> bool {
     #[allow(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 vertices")]
-    let [n_unused, most] = [(n_vertices - last_used) as f64, n_vertices as f64 * MAX_UNUSED_PART];
-    let most = if text.ends_with('\n') { most } else { 0.0 };
-    (0 < n_faces && most < n_unused).then(|| ObjError::CutOff {
-        line: text.lines().count(),
-        n_vertices: usize::try_from(n_vertices).unwrap_or_default(),
-    })
-}
-
-/// The first line that explains why the reader refused the file; the reader itself does not say.
-fn locate(text: &str, error: LoadError) -> ObjError {
-    let n_vertices = text.lines().filter(|line| line.trim_start().starts_with("v ")).count();
-    let mut n_so_far = 0;
-    for (index, line) in text.lines().enumerate() {
-        let found = || line.chars().take(60).collect::<String>();
-        let line_number = index + 1;
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let numbers: Vec<_> = words.map(str::parse::<f64>).collect();
-                let finite = |number: &Result<f64, _>| number.as_ref().is_ok_and(|value| value.is_finite());
-                if numbers.len() < 3 || !numbers[..3].iter().all(finite) {
-                    return ObjError::Vertex { line: line_number, found: found() };
-                }
-                n_so_far += 1;
-            }
-            Some("f") => {
-                for word in words {
-                    let Ok(vertex) = word.split('/').next().unwrap_or(word).parse::<i64>() else {
-                        return ObjError::Face { line: line_number, found: found() };
-                    };
-                    // Negative indices count back from the vertices defined so far.
-                    let known = if vertex < 0 { n_so_far } else { n_vertices };
-                    if vertex == 0
-                        || usize::try_from(vertex.unsigned_abs()).is_ok_and(|wanted| known < wanted)
-                    {
-                        return ObjError::VertexOutOfRange { line: line_number, index: vertex, n_vertices };
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-    ObjError::Other { reason: error.to_string() }
+    let unused_part = n_unused as f64 / n_vertices as f64;
+    // Vertices behind the last face may also belong to lines and points.
+    let has_lines = || text.lines().any(|line| matches!(line.split_whitespace().next(), Some("l" | "p")));
+    let suspicious = if text.ends_with('\n') { MAX_UNUSED_PART < unused_part } else { 0 < n_unused };
+    0 < n_faces && suspicious && !has_lines()
 }
 
 #[cfg(test)]
@@ -231,11 +264,32 @@ mod tests {
     fn a_file_that_ends_in_the_middle_is_told_from_one_without_a_last_line_break() {
         assert_eq!(
             message(&format!("{SQUARE}f 1 2 3\nf 1 3")),
-            "line 6: the file is cut off here: no face uses the last of its 4 vertices"
+            "line 6: the file is cut off here: faces for its last vertices are missing"
         );
         assert!(message(&format!("{SQUARE}f 1 2 3\n")).starts_with("line 5: the file is cut off here"));
         assert!(read(format!("{SQUARE}f 1 2 3\nf 1 3 4").as_bytes()).is_ok());
         assert!(read(format!("{SQUARE}f 1 2 3\nf -1 -2 -4").as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn a_face_that_goes_round_and_round_is_refused_at_once() {
+        let rounds = format!("{SQUARE}f {}\n", "1 2 4 3 ".repeat(1000));
+        assert_eq!(message(&rounds), "line 5: a face names vertex 1 more than 4 times");
+        let large = format!("{SQUARE}f {}\n", "1 2 4 3 ".repeat(1025));
+        assert_eq!(message(&large), "line 5: a face of 4100 corners: expected 3 to 4096");
+    }
+
+    #[test]
+    fn what_is_no_wall_is_not_looked_at() {
+        let whole = read(format!("{SQUARE}f 1 2 3 4\n").as_bytes()).unwrap();
+        let noise = "vt x\nvn 1\nl 1 2 99\np 7\nusemtl\n";
+        let huge = "f 1/18446744073709551615/-3 2//6148914691236517206 3/-9 4\n";
+        assert_eq!(read(format!("{SQUARE}{noise}{huge}").as_bytes()).unwrap(), whole);
+        // Vertices that only lines use do not make a file look cut off.
+        assert!(read(format!("{SQUARE}f 1 2 3\nl 3 4").as_bytes()).is_ok());
+        // A weight or colours after the coordinates are ignored.
+        let coloured = SQUARE.replace('\n', " 1 0 0\n");
+        assert_eq!(read(format!("{coloured}f 1 2 3 4\n").as_bytes()).unwrap(), whole);
     }
 
     #[test]

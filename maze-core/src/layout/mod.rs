@@ -4,8 +4,8 @@ mod generate;
 
 pub use generate::recursive_backtracker;
 
-/// Most cells of a layout: 4096 x 4096.
-const MAX_CELLS: usize = 1 << 24;
+/// Most cells of a layout: 1024 x 1024.
+const MAX_CELLS: usize = 1 << 20;
 
 /// A rectangle of cells; each pair of neighbours is joined by a passage or parted by a wall.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ impl Layout {
     /// All cells walled in.
     ///
     /// # Errors
-    /// Fewer than two cells (there is no way to go) or more than 4096 x 4096.
+    /// Fewer than two cells (there is no way to go) or more than 1024 x 1024.
     pub fn walled(width: usize, height: usize) -> Result<Self, LayoutSizeError> {
         match width.checked_mul(height) {
             Some(n_cells @ 2..=MAX_CELLS) => {
