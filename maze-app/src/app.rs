@@ -13,6 +13,7 @@ use crate::ui::Hud;
 use graphics::{Drawn, Graphics};
 use maze_core::Maze;
 use maze_render::{Camera, TextureSet};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use view::View;
 use winit::application::ApplicationHandler;
@@ -48,6 +49,8 @@ pub(crate) struct App {
     view: View,
     source: Source,
     textures: TextureSet,
+    /// Where to write it; opened with the window, so that nothing is lost when there is none.
+    state_log_path: Option<PathBuf>,
     state_log: Option<StateLog>,
     exit_after: Option<Duration>,
     graphics: Option<Graphics>,
@@ -73,7 +76,8 @@ impl App {
             view: View::default(),
             source: setup.source,
             textures: setup.textures,
-            state_log: setup.state_log,
+            state_log_path: setup.state_log,
+            state_log: None,
             exit_after: setup.exit_after,
             graphics: None,
             cursor: PhysicalPosition::default(),
@@ -99,10 +103,9 @@ impl App {
         event_loop.exit();
     }
 
-    fn load_into_graphics(&mut self) {
-        if let Some(graphics) = &mut self.graphics {
-            graphics.set_maze(self.game.maze(), &format!("Maze  {}", self.source.title()));
-        }
+    fn load_into_graphics(&mut self) -> Result<(), Failure> {
+        let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        graphics.set_maze(self.game.maze(), &format!("Maze  {}", self.source.title()))
     }
 
     fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
@@ -111,7 +114,8 @@ impl App {
             .create_window(attributes)
             .map_err(|error| Failure::bad_input(format!("cannot open a window: {error}")))?;
         self.graphics = Some(Graphics::new(event_loop, window, &self.textures)?);
-        self.load_into_graphics();
+        self.load_into_graphics()?;
+        self.state_log = self.state_log_path.as_deref().map(StateLog::create).transpose()?;
         Ok(())
     }
 
@@ -131,7 +135,7 @@ impl App {
                     self.control.level();
                     self.game = Game::new(self.source.load()?)?;
                     self.view = View::default();
-                    self.load_into_graphics();
+                    self.load_into_graphics()?;
                 }
             }
         }
@@ -146,7 +150,7 @@ impl App {
         {
             self.control.key(direction, pressed);
         }
-        match input::action_of(key) {
+        match input::action_of(&event.logical_key) {
             // Held zoom keys go on zooming; everything else happens once a press.
             Some(action @ (Action::ZoomIn | Action::ZoomOut)) if pressed => self.act(event_loop, action),
             Some(action) if pressed && !event.repeat => self.act(event_loop, action),
@@ -205,8 +209,9 @@ impl App {
         let scene = self.game.scene(&pose, self.view.camera());
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         if let Drawn::DeviceLost = graphics.draw(&scene, &hud)? {
-            graphics.rebuild(&self.textures)?;
-            self.load_into_graphics();
+            // The old device must be gone before a new one may have the window.
+            self.graphics = self.graphics.take().map(|lost| lost.rebuilt(&self.textures)).transpose()?;
+            self.load_into_graphics()?;
         }
         Ok(())
     }
@@ -275,7 +280,8 @@ impl ApplicationHandler for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let Some(graphics) = &self.graphics else { return };
         let now = Instant::now();
-        if self.hidden {
+        if self.hidden || !graphics.has_area() {
+            self.last_frame = now;
             return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
         }
         if self.next_frame <= now {

@@ -6,20 +6,20 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Largest file that is read: far above any maze, far below memory.
-const MAX_BYTES: u64 = 1 << 30;
+/// Largest file that is read: far above any maze (a million faces are 60 MB).
+const MAX_BYTES: u64 = 1 << 28;
 
 /// The whole file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let metadata = fs::metadata(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
-    if metadata.is_dir() {
-        return Err(Failure::in_file(path, "is a directory, expected a file"));
+    if !metadata.is_file() {
+        // A pipe or a device may never end.
+        let what = if metadata.is_dir() { "a directory" } else { "no ordinary file" };
+        return Err(Failure::in_file(path, format!("is {what}, expected a file")));
     }
     if MAX_BYTES < metadata.len() {
-        return Err(Failure::in_file(
-            path,
-            format!("{} bytes, expected at most {MAX_BYTES}", metadata.len()),
-        ));
+        let n_bytes = metadata.len();
+        return Err(Failure::in_file(path, format!("{n_bytes} bytes, expected at most {MAX_BYTES}")));
     }
     fs::read(path).map_err(|error| Failure::in_file(path, plain(&error)))
 }
@@ -79,7 +79,7 @@ pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> 
 }
 
 /// The system's words without its number.
-fn plain(error: &std::io::Error) -> String {
+pub(crate) fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();
     match text.find(" (os error") {
         Some(end) => text[..end].to_lowercase(),

@@ -106,7 +106,7 @@ impl Game {
         let way = position - self.previous.position;
         self.current.position = position;
         self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
-        Ok(self.run.observe(tilt, position, &tick).collect())
+        Ok(self.run.observe(tilt, [self.previous.position, position], &tick).collect())
     }
 
     /// Between the last two ticks, `alpha` of the way. A board in the player's hand is shown where the hand is.

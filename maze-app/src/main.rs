@@ -14,6 +14,7 @@ mod ui;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Tilt the maze, roll the ball, find the way.
@@ -58,10 +59,16 @@ fn main() -> ExitCode {
         Command::Generate(arguments) => command::generate::run(&arguments),
         Command::Render(arguments) => command::render::run(&arguments),
     };
+    finish(result)
+}
+
+/// The one place that says what went wrong.
+fn finish(result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("maze-app: {failure}");
+            // Where nobody can read it, the exit status still tells.
+            let _ = writeln!(std::io::stderr(), "maze-app: {failure}");
             failure.exit_code()
         }
     }
@@ -70,12 +77,10 @@ fn main() -> ExitCode {
 /// Help and version go to stdout as they are; what is wrong becomes one line.
 fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
-        print!("{error}");
-        return ExitCode::SUCCESS;
+        return finish(files::print(&error.to_string()));
     }
     let text = error.to_string();
     let reason = text.split("\n\n").next().unwrap_or_default();
     let reason: Vec<&str> = reason.split_whitespace().skip_while(|word| *word == "error:").collect();
-    eprintln!("maze-app: {} (see --help)", reason.join(" "));
-    Failure::bad_input("").exit_code()
+    finish(Err(Failure::bad_input(format!("{} (see --help)", reason.join(" ")))))
 }

@@ -10,7 +10,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// How to read a maze file.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct ReadArguments {
-    /// Ball radius in corridors, less than 0.5 [default: 0.35]
+    /// Ball radius in corridors, 0.02 to 0.49 [default: 0.35]
     #[arg(long, value_name = "R", value_parser = parse_radius)]
     ball_radius: Option<Radius>,
     /// Axis of the file that points out of the board [default: the one along which the file is flattest]
@@ -25,10 +25,10 @@ impl ReadArguments {
 
     /// Reads a maze file; the kind is told by its name's ending.
     pub(crate) fn load(&self, path: &Path) -> Result<Maze, Failure> {
-        let bytes = files::read(path)?;
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
             return Err(Failure::in_file(path, "not a maze file: expected a name that ends in .obj"));
         }
+        let bytes = files::read(path)?;
         let mesh = import::obj::read(&bytes).map_err(|error| Failure::in_file(path, error))?;
         Maze::from_polygons(&mesh, &self.options()).map_err(|error| Failure::in_file(path, error))
     }
@@ -75,9 +75,12 @@ pub(crate) fn parse_pixel_size(text: &str) -> Result<[u32; 2], String> {
     if size.contains(&0) { Err("expected at least 1x1 pixels".to_owned()) } else { Ok(size) }
 }
 
+/// Below the length of a substep a ball could pass through a wall between two of them; half a corridor fits nowhere.
+const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
+
 fn parse_radius(text: &str) -> Result<Radius, String> {
-    let radius = text.parse().ok().and_then(Radius::new);
-    radius.ok_or_else(|| "expected a number greater than 0, in corridors".to_owned())
+    let radius = text.parse().ok().filter(|radius| RADII.contains(radius)).and_then(Radius::new);
+    radius.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
 }
 
 fn parse_up_axis(text: &str) -> Result<UpAxis, String> {

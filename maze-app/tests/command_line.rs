@@ -128,6 +128,14 @@ fn help_is_complete_and_has_examples() {
 }
 
 #[test]
+fn help_on_a_full_disk_is_one_line() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = maze_app(&["--help"]).stdout(full).stderr(std::process::Stdio::piped()).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(String::from_utf8_lossy(&output.stderr).lines().count(), 1);
+}
+
+#[test]
 fn a_reader_that_stops_early_is_no_error() {
     let mut child = maze_app(&["info", DEFAULT_MAZE, "--planes", "+x"])
         .stdout(std::process::Stdio::piped())
@@ -150,7 +158,7 @@ fn bad_usage_is_one_line() {
     refused(&mut maze_app(&["play", "--exit-after", "nan"]), "expected a number of seconds");
     refused(&mut maze_app(&["play", DEFAULT_MAZE, "--seed", "3"]), "cannot be used with");
     refused(&mut maze_app(&["info"]), "required arguments were not provided");
-    refused(&mut maze_app(&["info", DEFAULT_MAZE, "--ball-radius=-1"]), "expected a number greater than 0");
+    refused(&mut maze_app(&["info", DEFAULT_MAZE, "--ball-radius=-1"]), "expected 0.02 to 0.49");
     refused(&mut maze_app(&["info", DEFAULT_MAZE, "--planes", "up"]), "expected +x, -x, +y or -y");
     refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--size", "0x9"]), "at least 1x1");
     refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.jpg"]), "expected a name that ends in .png");
@@ -181,7 +189,15 @@ fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
         assert_eq!(names_in(directory.path()), [name], "nothing was written");
     }
     refused(&mut maze_app(&["info", "/no/such/maze.obj"]), "/no/such/maze.obj: no such file or directory");
-    refused(&mut maze_app(&["info", "/"]), "/: is a directory");
+    refused(&mut maze_app(&["info", "/"]), "expected a name that ends in .obj");
+    refused(&mut maze_app(&["info", "/dev/null"]), "expected a name that ends in .obj");
+    let (directory, _) = file("x", b"");
+    let fifo = directory.path().join("pipe.obj");
+    assert!(Command::new("mkfifo").arg(&fifo).status().unwrap().success());
+    refused(
+        &mut maze_app(&["info", fifo.to_str().unwrap()]),
+        "pipe.obj: is no ordinary file, expected a file",
+    );
 }
 
 #[test]

@@ -285,11 +285,12 @@ fn tiny_minimised_and_restored_windows_stay_alive() {
 
 #[test]
 fn exit_after_ends_by_itself() {
-    let mut session = Session::open(&["--exit-after", "2"]);
+    let mut session = Session::open(&["--exit-after", "6"]);
     assert!(session.exit_status().success());
     let ticks: Vec<u64> = session.states().iter().map(|state| state.tick).collect();
     let counted: Vec<u64> = (1..).take(ticks.len()).collect();
     assert_eq!(ticks, counted, "one line a tick, none left out");
-    // 2 s are 67 ticks of 0.03 s; the frame in which the time runs out may hold as many as are ever made up for.
-    assert!(ticks.len() <= 67 + 8, "{} ticks", ticks.len());
+    // 6 s are 200 ticks of 0.03 s; the frame in which the time runs out may hold as many as are ever made up for, and on a
+    // busy machine slow frames lose some.
+    assert!((20..=200 + 8).contains(&ticks.len()), "{} ticks", ticks.len());
 }

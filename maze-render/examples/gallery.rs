@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let textures = textures()?;
     let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
     let mut save = |name: &str, board: &Board, size: [u32; 2], tilt: [f32; 2], zoom: Option<f32>| {
-        renderer.set_maze(&gpu, &board.mesh());
+        renderer.set_maze(&gpu, &board.mesh())?;
         let mut scene = board.scene(size[0] as f32 / size[1] as f32);
         let [x, y] = board.cell(board.n_cells[0] / 2, board.n_cells[1] / 2);
         scene.ball.position = [x, y, scene.ball.radius];

@@ -11,6 +11,11 @@ pub const CAPTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormS
 ///
 /// The same device, maze and scene give the same bytes. Takes a renderer of any 8-bit format, so also a window's. Waits
 /// for the device, which a browser does not allow.
+///
+/// # Errors
+///
+/// [`GpuError::PictureSize`] for a side of zero or one longer than [`Gpu::max_side`]; [`GpuError::Device`] when the
+/// renderer's format is no 8-bit one, and for whatever the device reported, also before.
 pub fn capture(
     gpu: &Gpu,
     renderer: &mut Renderer,

@@ -29,7 +29,31 @@ pub enum GpuError {
         /// Longest side the adapter allows.
         max: u32,
     },
+    /// A maze whose triangles do not fit into one buffer.
+    #[error(
+        "the maze is too large to draw: it needs a buffer of {} MiB, this adapter allows {} MiB",
+        .n_bytes.div_ceil(BYTES_PER_MIB), .max / BYTES_PER_MIB
+    )]
+    MazeTooLarge {
+        /// Needed for the vertices, or for the indices.
+        n_bytes: u64,
+        /// Most bytes the adapter allows in one buffer.
+        max: u64,
+    },
+    /// A maze with a triangle that has no such corner.
+    #[error(
+        "the maze cannot be drawn: a triangle uses vertex {index} (from 0), but there are only {n_vertices}"
+    )]
+    VertexOutOfRange {
+        /// Used by the triangle.
+        index: u32,
+        /// Given.
+        n_vertices: usize,
+    },
 }
+
+/// For messages: 2^20.
+const BYTES_PER_MIB: u64 = 1 << 20;
 
 /// The graphics device and everything it came from.
 pub struct Gpu {
@@ -48,15 +72,35 @@ pub struct Gpu {
 
 impl Gpu {
     /// A device with no window. Honours `WGPU_BACKEND`, `WGPU_ADAPTER_NAME` is not read.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::NoAdapter`] without a driver, [`GpuError::Device`] when the driver refuses.
     pub fn offscreen() -> Result<Self, GpuError> {
         let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-        pollster::block_on(Self::open(wgpu::Instance::new(descriptor), None))
+        pollster::block_on(Self::open(wgpu::Instance::new(descriptor), None, Kind::Any))
+    }
+
+    /// [`Gpu::offscreen`] on a driver that draws with the processor, whatever graphics cards there are and whatever
+    /// the environment asks for: the same pictures on every machine, up to the driver's version.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::NoAdapter`] without such a driver, [`GpuError::Device`] when it refuses.
+    pub fn offscreen_software() -> Result<Self, GpuError> {
+        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        pollster::block_on(Self::open(wgpu::Instance::new(descriptor), None, Kind::Software))
     }
 
     /// A device that can draw to `window`, and the window as a target of `size` pixels. Blocks; the browser needs
     /// [`Gpu::for_window_async`].
     ///
     /// With winit, `window` is an `Arc<Window>` and `display` its `event_loop.owned_display_handle()`, boxed.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::NoAdapter`] without a driver that can draw to the window, [`GpuError::Surface`] when the window
+    /// cannot be drawn to although there is a driver, [`GpuError::Device`] when the driver refuses.
     pub fn for_window<W>(
         window: W,
         display: Box<dyn wgpu::wgt::WgpuHasDisplayHandle>,
@@ -70,6 +114,10 @@ impl Gpu {
     }
 
     /// [`Gpu::for_window`] for an instance of the caller's making.
+    ///
+    /// # Errors
+    ///
+    /// As [`Gpu::for_window`].
     pub async fn for_window_async<W>(
         instance: wgpu::Instance,
         window: W,
@@ -81,8 +129,15 @@ impl Gpu {
         let make_surface = move |instance: &wgpu::Instance| {
             instance.create_surface(window.clone()).map_err(|e| GpuError::Surface(one_line(&e)))
         };
-        let surface = make_surface(&instance)?;
-        let gpu = Self::open(instance, Some(&surface)).await?;
+        let surface = match make_surface(&instance) {
+            Ok(surface) => surface,
+            Err(error) => {
+                // Without any driver no surface can be made either: then it is the driver that is missing.
+                find_adapter(&instance, None, Kind::Any).await?;
+                return Err(error);
+            }
+        };
+        let gpu = Self::open(instance, Some(&surface), Kind::Any).await?;
         let target = WindowTarget::new(&gpu, surface, Box::new(make_surface), size)?;
         Ok((gpu, target))
     }
@@ -90,21 +145,18 @@ impl Gpu {
     async fn open(
         instance: wgpu::Instance,
         surface: Option<&wgpu::Surface<'static>>,
+        kind: Kind,
     ) -> Result<Self, GpuError> {
-        let adapter = instance
-            .request_adapter(&wgpu::RequestAdapterOptions {
-                power_preference: wgpu::PowerPreference::from_env()
-                    .unwrap_or(wgpu::PowerPreference::HighPerformance),
-                compatible_surface: surface,
-                ..Default::default()
-            })
-            .await
-            .map_err(|e| GpuError::NoAdapter(one_line(&e)))?;
+        let adapter = find_adapter(&instance, surface, kind).await?;
         let adapter_info = adapter.get_info();
         // What WebGL2 offers, with this adapter's texture size and buffer alignment.
-        let required_limits = wgpu::Limits::downlevel_webgl2_defaults()
+        let mut required_limits = wgpu::Limits::downlevel_webgl2_defaults()
             .using_resolution(adapter.limits())
             .using_alignment(adapter.limits());
+        // A browser's 256 MiB hold 8 million vertices; natively a maze may fill what the adapter takes.
+        if cfg!(not(target_arch = "wasm32")) {
+            required_limits.max_buffer_size = adapter.limits().max_buffer_size;
+        }
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("maze"),
@@ -156,6 +208,27 @@ impl Gpu {
     }
 }
 
+/// Which adapters will do.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Any,
+    Software,
+}
+
+async fn find_adapter(
+    instance: &wgpu::Instance,
+    surface: Option<&wgpu::Surface<'static>>,
+    kind: Kind,
+) -> Result<wgpu::Adapter, GpuError> {
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::from_env().unwrap_or(wgpu::PowerPreference::HighPerformance),
+        compatible_surface: surface,
+        force_fallback_adapter: kind == Kind::Software,
+        ..Default::default()
+    };
+    instance.request_adapter(&options).await.map_err(|e| GpuError::NoAdapter(one_line(&e)))
+}
+
 fn keep_first(slot: &Mutex<Option<String>>, message: String) {
     slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(message);
 }
@@ -183,6 +256,33 @@ pub struct WindowTarget {
     make_surface: MakeSurface,
     /// False while the window has no area: nothing may be configured or drawn.
     has_area: bool,
+    suboptimal: Suboptimal,
+}
+
+/// What became of the driver's hint that the surface does not quite match the window. Setting it up anew usually helps;
+/// where it does not (a rotated display), the hint comes with every frame and is answered once a resize.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Suboptimal {
+    NotSeen,
+    Seen,
+    Answered,
+}
+
+impl Suboptimal {
+    fn see(&mut self) {
+        if *self == Self::NotSeen {
+            *self = Self::Seen;
+        }
+    }
+
+    /// True once after a first sight: set up the surface now.
+    fn answer(&mut self) -> bool {
+        let is_due = *self == Self::Seen;
+        if is_due {
+            *self = Self::Answered;
+        }
+        is_due
+    }
 }
 
 /// What [`WindowTarget::acquire`] found.
@@ -213,7 +313,8 @@ impl WindowTarget {
             .ok_or_else(|| GpuError::Surface("no configuration offered".to_owned()))?;
         config.format = format;
         config.present_mode = wgpu::PresentMode::Fifo; // The one mode that is offered everywhere.
-        let mut target = Self { surface, config, make_surface, has_area: false };
+        let mut target =
+            Self { surface, config, make_surface, has_area: false, suboptimal: Suboptimal::NotSeen };
         target.resize(gpu, size);
         match gpu.take_error() {
             Some(error) => Err(error),
@@ -227,20 +328,30 @@ impl WindowTarget {
         self.has_area = 0 < width && 0 < height;
         if self.has_area {
             (self.config.width, self.config.height) = (width, height);
+            self.suboptimal = Suboptimal::NotSeen;
             self.configure(gpu);
         }
     }
 
     /// The next frame to draw to, if there is one. Repairs what it can: an outdated or lost surface is set up anew.
+    /// Drop or present the last frame first.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::Surface`] when a lost surface cannot be made again.
     pub fn acquire(&mut self, gpu: &Gpu) -> Result<Acquired, GpuError> {
         if !self.has_area {
             return Ok(Acquired::Skip);
         }
+        if self.suboptimal.answer() {
+            self.configure(gpu);
+        }
         match self.surface.get_current_texture() {
             CurrentSurfaceTexture::Success(texture) => return Ok(Acquired::Frame(texture)),
+            // Drawn all the same. A surface cannot be configured while its texture lives: that waits for the next call.
             CurrentSurfaceTexture::Suboptimal(texture) => {
-                drop(texture); // A surface cannot be configured while its texture lives.
-                self.configure(gpu);
+                self.suboptimal.see();
+                return Ok(Acquired::Frame(texture));
             }
             CurrentSurfaceTexture::Outdated => self.configure(gpu),
             CurrentSurfaceTexture::Timeout | CurrentSurfaceTexture::Occluded => {}
@@ -272,6 +383,11 @@ impl WindowTarget {
         [self.config.width, self.config.height]
     }
 
+    /// False while the window has no area, as a minimised one on Windows: nothing is shown, so a game may pause.
+    pub fn has_area(&self) -> bool {
+        self.has_area
+    }
+
     fn configure(&self, gpu: &Gpu) {
         self.surface.configure(&gpu.device, &self.config);
     }
@@ -279,4 +395,31 @@ impl WindowTarget {
 
 fn is_plain_8_bit(format: &wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba8Unorm | wgpu::TextureFormat::Bgra8Unorm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_suboptimal_surface_is_set_up_once_a_resize() {
+        let mut state = Suboptimal::NotSeen;
+        assert!(!state.answer(), "nothing to do");
+        for expected in [true, false, false] {
+            state.see();
+            assert_eq!(state.answer(), expected);
+        }
+        state = Suboptimal::NotSeen; // As `resize` does.
+        state.see();
+        assert!(state.answer());
+    }
+
+    #[test]
+    fn a_size_in_a_message_never_contradicts_itself() {
+        let text = |n_bytes, max| GpuError::MazeTooLarge { n_bytes, max }.to_string();
+        let max = 256 * BYTES_PER_MIB;
+        let expected =
+            "the maze is too large to draw: it needs a buffer of 257 MiB, this adapter allows 256 MiB";
+        assert_eq!(text(max + 1, max), expected);
+    }
 }

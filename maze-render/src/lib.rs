@@ -15,7 +15,7 @@
 //! # let (textures, mesh, scene): (maze_render::TextureSet, maze_core::surface::SurfaceMesh, maze_render::Scene) = todo!();
 //! let gpu = maze_render::Gpu::offscreen()?;
 //! let mut renderer = maze_render::Renderer::new(&gpu, maze_render::CAPTURE_FORMAT, &textures);
-//! renderer.set_maze(&gpu, &mesh);
+//! renderer.set_maze(&gpu, &mesh)?;
 //! maze_render::capture(&gpu, &mut renderer, [1280, 720], &scene)?.save("maze.png")?;
 //! # Ok(()) }
 //! ```

@@ -6,6 +6,8 @@ use std::ops::Range;
 use maze_core::surface::{Surface, SurfaceMesh};
 use wgpu::util::DeviceExt;
 
+use crate::{Gpu, GpuError};
+
 /// How far the board's rim hangs below its floor, in maze units: about a plank.
 pub(crate) const RIM_DEPTH: f32 = 0.35;
 
@@ -38,14 +40,27 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// The maze's surfaces, and a rim below every open edge on the floor.
-    pub(crate) fn of_maze(device: &wgpu::Device, mesh: &SurfaceMesh) -> Self {
-        let mut vertices: Vec<Vertex> = mesh
-            .vertices
-            .iter()
-            .map(|v| Vertex { position: v.position, normal: v.normal, uv: v.uv })
-            .collect();
-        let mut indices = Vec::new();
+    /// The maze's surfaces, and a rim below every open edge on the floor. `None` for a maze without triangles: a buffer
+    /// without bytes cannot be bound.
+    pub(crate) fn of_maze(gpu: &Gpu, mesh: &SurfaceMesh) -> Result<Option<Self>, GpuError> {
+        let max_bytes = gpu.device.limits().max_buffer_size;
+        let (n_vertices, n_indices) = (mesh.vertices.len(), mesh.indices.iter().map(Vec::len).sum());
+        // Once before looking at any triangle, so that this bounds the work too, and once with the rim.
+        check_size(n_vertices, n_indices, max_bytes)?;
+        check_indices(mesh)?;
+        let rim_edges = open_edges(mesh);
+        let (n_vertices, n_indices) = (n_vertices + 4 * rim_edges.len(), n_indices + 6 * rim_edges.len());
+        check_size(n_vertices, n_indices, max_bytes)?;
+        if n_indices == 0 {
+            return Ok(None);
+        }
+        let mut vertices = Vec::with_capacity(n_vertices);
+        vertices.extend(mesh.vertices.iter().map(|v| Vertex {
+            position: v.position,
+            normal: v.normal,
+            uv: v.uv,
+        }));
+        let mut indices = Vec::with_capacity(n_indices);
         let mut start = 0;
         let mut group_up_to = |end: usize| {
             let end = u32::try_from(end).unwrap_or(u32::MAX);
@@ -55,10 +70,15 @@ impl Mesh {
             indices.extend_from_slice(mesh.indices_of(surface));
             group_up_to(indices.len())
         });
-        add_rim(mesh, &mut vertices, &mut indices);
+        add_rim(&rim_edges, &mut vertices, &mut indices);
         let rim = group_up_to(indices.len());
         let [wall, top, floor] = surfaces;
-        Self::upload(device, "maze", &vertices, &indices, [wall, top, floor, rim])
+        let buffer = |contents: &[u8], usage| maze_buffer(gpu, contents, usage);
+        Ok(Some(Self {
+            vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX)?,
+            indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX)?,
+            groups: [wall, top, floor, rim],
+        }))
     }
 
     /// A ball of radius 1 about the origin; a position is its own normal.
@@ -67,27 +87,14 @@ impl Mesh {
         let vertices: Vec<_> =
             points.into_iter().map(|p| Vertex { position: p, normal: p, uv: [0.0; 2] }).collect();
         let all = 0..u32::try_from(indices.len()).unwrap_or(0);
-        Self::upload(device, "ball", &vertices, &indices, [all, 0..0, 0..0, 0..0])
-    }
-
-    fn upload(
-        device: &wgpu::Device,
-        name: &str,
-        vertices: &[Vertex],
-        indices: &[u32],
-        groups: [Range<u32>; 4],
-    ) -> Self {
         let buffer = |contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(name),
-                contents,
-                usage,
-            })
+            let label = Some("ball");
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
         };
         Self {
-            vertices: buffer(bytemuck::cast_slice(vertices), wgpu::BufferUsages::VERTEX),
-            indices: buffer(bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX),
-            groups,
+            vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            groups: [all, 0..0, 0..0, 0..0],
         }
     }
 
@@ -98,25 +105,69 @@ impl Mesh {
     }
 }
 
-/// Hangs a plank's edge below every edge at floor height that no second triangle shares: around the board and
-/// around holes. Edges are matched by position, so it does not matter which surface brings them; one that is split
-/// differently on its two sides only grows a rim nobody sees, below the floor.
-fn add_rim(mesh: &SurfaceMesh, vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
+/// Whether vertices and indices fit into a buffer each, and can be counted in the 32 bits that drawing has.
+fn check_size(n_vertices: usize, n_indices: usize, max_bytes: u64) -> Result<(), GpuError> {
+    for (n, n_bytes_each) in [(n_vertices, size_of::<Vertex>()), (n_indices, size_of::<u32>())] {
+        let [n, n_bytes_each] = [n, n_bytes_each].map(|n| n as u64);
+        let n_bytes = n.saturating_mul(n_bytes_each);
+        let max = max_bytes.min(n_bytes_each * u64::from(u32::MAX));
+        if max < n_bytes {
+            return Err(GpuError::MazeTooLarge { n_bytes, max });
+        }
+    }
+    Ok(())
+}
+
+fn check_indices(mesh: &SurfaceMesh) -> Result<(), GpuError> {
+    let n_vertices = mesh.vertices.len();
+    let beyond = mesh.indices.iter().flatten().find(|&&index| n_vertices <= index as usize);
+    beyond.map_or(Ok(()), |&index| Err(GpuError::VertexOutOfRange { index, n_vertices }))
+}
+
+/// A buffer that holds `contents`. `create_buffer_init` would panic where the memory runs out or the device is lost.
+fn maze_buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("maze"),
+        size: contents.len() as u64,
+        usage,
+        mapped_at_creation: true,
+    });
+    match buffer.get_mapped_range_mut(..) {
+        Ok(mut mapped) => mapped.copy_from_slice(contents),
+        // What the device has to say tells more than that there is nothing to write to.
+        Err(error) => {
+            let unexplained = || GpuError::Device(format!("uploading the maze: {error}"));
+            return Err(gpu.take_error().unwrap_or_else(unexplained));
+        }
+    }
+    buffer.unmap();
+    Ok(buffer)
+}
+
+/// Every edge at floor height that no second triangle shares: around the board and around holes. Edges are matched by
+/// position, so it does not matter which surface brings them; one that is split differently on its two sides only
+/// grows a rim nobody sees, below the floor.
+fn open_edges(mesh: &SurfaceMesh) -> Vec<[[f32; 3]; 2]> {
     type Place = [u32; 3];
     let place = |p: [f32; 3]| -> Place { p.map(|x| (x + 0.0).to_bits()) };
-    let mut open: BTreeMap<(Place, Place), ([f32; 3], [f32; 3])> = BTreeMap::new();
+    let mut open: BTreeMap<[Place; 2], [[f32; 3]; 2]> = BTreeMap::new();
     for triangle in mesh.indices.iter().flat_map(|group| group.as_chunks::<3>().0) {
         let corners = triangle.map(|i| mesh.vertices[i as usize].position);
         for (a, b) in [(corners[0], corners[1]), (corners[1], corners[2]), (corners[2], corners[0])] {
             if a[2].abs() < FLOOR_TOLERANCE
                 && b[2].abs() < FLOOR_TOLERANCE
-                && open.remove(&(place(b), place(a))).is_none()
+                && open.remove(&[place(b), place(a)]).is_none()
             {
-                open.insert((place(a), place(b)), (a, b));
+                open.insert([place(a), place(b)], [a, b]);
             }
         }
     }
-    for (a, b) in open.into_values() {
+    open.into_values().collect()
+}
+
+/// Hangs a plank's edge below each of `edges`: four vertices and six indices, or none where an edge has no length.
+fn add_rim(edges: &[[[f32; 3]; 2]], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
+    for &[a, b] in edges {
         let along = [b[0] - a[0], b[1] - a[1]];
         let length = along[0].hypot(along[1]);
         let Ok(first) = u32::try_from(vertices.len()) else { return };
@@ -205,6 +256,25 @@ mod tests {
     }
 
     #[test]
+    fn a_maze_fits_up_to_the_last_byte() {
+        let max = 320;
+        assert!(check_size(10, 80, max).is_ok());
+        let refused = |n_vertices, n_indices, max| match check_size(n_vertices, n_indices, max) {
+            Err(GpuError::MazeTooLarge { n_bytes, max }) => [n_bytes, max],
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(refused(11, 80, max), [352, max], "vertices");
+        assert_eq!(refused(10, 81, max), [324, max], "indices");
+        let too_many = u64::from(u32::MAX) + 1;
+        let n_indices = usize::try_from(too_many).unwrap_or(usize::MAX);
+        assert_eq!(
+            refused(0, n_indices, u64::MAX),
+            [4 * too_many, 4 * (too_many - 1)],
+            "more than 32 bits count"
+        );
+    }
+
+    #[test]
     fn a_rim_hangs_around_a_floor_and_nowhere_inside_it() {
         let corner = |x, y| SurfaceVertex { position: [x, y, 0.0], normal: [0.0, 0.0, 1.0], uv: [x, y] };
         let mesh = SurfaceMesh {
@@ -212,7 +282,7 @@ mod tests {
             indices: [vec![], vec![], vec![0, 1, 2, 0, 2, 3]],
         };
         let (mut vertices, mut indices) = (vec![], vec![]);
-        add_rim(&mesh, &mut vertices, &mut indices);
+        add_rim(&open_edges(&mesh), &mut vertices, &mut indices);
         assert_eq!(indices.len(), 4 * 6, "four sides, not the diagonal");
         for triangle in indices.as_chunks::<3>().0 {
             let [a, b, c] = triangle.map(|i| vertices[i as usize]);

@@ -12,7 +12,7 @@ use crate::pass::shadow::Shadow;
 use crate::pass::{self, Board, DEPTH_FORMAT, Frame, Shared};
 use crate::scene::Scene;
 use crate::texture::TextureSet;
-use crate::{Detail, Gpu};
+use crate::{Detail, Gpu, GpuError};
 
 /// Samples a pixel: smooth edges. The one count, beside 1, that every adapter offers.
 const N_SAMPLES: u32 = 4;
@@ -128,16 +128,23 @@ impl Renderer {
         }
     }
 
-    /// Uploads the maze that the next scenes show. Panics on a triangle with an index beyond the vertices.
-    pub fn set_maze(&mut self, gpu: &Gpu, mesh: &SurfaceMesh) {
+    /// Uploads the maze that the next scenes show; a refused one leaves the last one in place.
+    ///
+    /// The soft darkness at the foot of walls takes a bounded time: should the wall tops cover 2^25 rows of its map
+    /// (a texel high, counted for each triangle; tops that do not overlap come to a seventh), the rest cast none.
+    ///
+    /// # Errors
+    ///
+    /// [`GpuError::MazeTooLarge`] when the vertices or the indices, the board's rim included, take more bytes than the
+    /// adapter allows in a buffer; [`GpuError::VertexOutOfRange`] for an index beyond the vertices; both before
+    /// anything is allocated on the adapter. [`GpuError::Device`] when it is out of memory or lost.
+    pub fn set_maze(&mut self, gpu: &Gpu, mesh: &SurfaceMesh) -> Result<(), GpuError> {
+        let uploaded = Mesh::of_maze(gpu, mesh)?;
         self.board.bounds = Bounds::around(mesh.vertices.iter().map(|v| v.position));
         let occlusion = OcclusionMap::new(mesh, &self.board.bounds);
         self.board.uv_from_maze = occlusion.uv_from_maze;
-        // A buffer without bytes cannot be bound.
-        self.content = (!mesh.vertices.is_empty()).then(|| Content {
-            mesh: Mesh::of_maze(&gpu.device, mesh),
-            light_group: self.light_group(gpu, &occlusion),
-        });
+        self.content = uploaded.map(|mesh| Content { mesh, light_group: self.light_group(gpu, &occlusion) });
+        Ok(())
     }
 
     fn light_group(&self, gpu: &Gpu, occlusion: &OcclusionMap) -> wgpu::BindGroup {

@@ -79,6 +79,10 @@ pub enum TextureError {
 ///
 /// The header is checked before anything is allocated, so that no file can ask for more memory than
 /// `MAX_SIDE`² pixels, nor for more than the pixels it brings.
+///
+/// # Errors
+///
+/// Any [`TextureError`]: what the file is instead, with the numbers from its header.
 pub fn decode_bmp(name: &str, bytes: &[u8]) -> Result<RgbImage, TextureError> {
     check_header(name, bytes)?;
     let refuse = |e: image::ImageError| TextureError::Decode {

@@ -14,7 +14,7 @@ const GREY: [u8; 3] = [120; 3];
 
 fn drawn(gpu: &Gpu, textures: &TextureSet, board: &Board, scene: &Scene) -> RgbaImage {
     let mut renderer = Renderer::new(gpu, CAPTURE_FORMAT, textures);
-    renderer.set_maze(gpu, &board.mesh());
+    renderer.set_maze(gpu, &board.mesh()).unwrap();
     capture(gpu, &mut renderer, SIZE, scene).expect("a picture")
 }
 
@@ -42,7 +42,7 @@ fn strongest(colour: [u8; 3]) -> usize {
 
 #[test]
 fn each_surface_shows_its_own_texture() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::empty(5, 4);
     let mut scene = board.scene(ASPECT);
     scene.ball.radius = 0.0;
@@ -63,7 +63,7 @@ fn each_surface_shows_its_own_texture() {
 
 #[test]
 fn textures_repeat_once_a_unit_on_tops_and_every_three_on_the_floor() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::empty(6, 4);
     let mut scene = board.scene(ASPECT);
     scene.ball.radius = 0.0;
@@ -85,23 +85,23 @@ fn textures_repeat_once_a_unit_on_tops_and_every_three_on_the_floor() {
 
 #[test]
 fn the_same_scene_gives_the_same_bytes() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::carved(6, 4, 1);
     let mut scene = board.scene(ASPECT);
     scene.world_from_maze = UnitQuaternion::from_scaled_axis(Vector3::new(0.1, -0.05, 0.0));
     let textures = flat_textures([150, 80, 60], [176, 130, 86], GREY);
     let mut renderer = Renderer::new(&gpu, CAPTURE_FORMAT, &textures);
-    renderer.set_maze(&gpu, &board.mesh());
+    renderer.set_maze(&gpu, &board.mesh()).unwrap();
     let first = capture(&gpu, &mut renderer, SIZE, &scene).unwrap();
     capture(&gpu, &mut renderer, [200, 300], &board.scene(1.5)).unwrap();
     assert_eq!(n_different(&first, &capture(&gpu, &mut renderer, SIZE, &scene).unwrap()), 0, "same renderer");
-    let other_gpu = Gpu::offscreen().unwrap();
+    let other_gpu = Gpu::offscreen_software().unwrap();
     assert_eq!(n_different(&first, &drawn(&other_gpu, &textures, &board, &scene)), 0, "another device");
 }
 
 #[test]
 fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::empty(5, 4);
     let textures = flat_textures(GREY, GREY, GREY);
     let mut scene = board.scene(ASPECT);
@@ -127,7 +127,7 @@ fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
 
 #[test]
 fn walls_throw_shadows_away_from_the_sun() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::empty(5, 4);
     let mut scene = board.scene(ASPECT);
     scene.ball.radius = 0.0;
@@ -142,7 +142,7 @@ fn walls_throw_shadows_away_from_the_sun() {
 
 #[test]
 fn start_and_goal_differ_in_colour_and_the_goal_glows() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::empty(5, 4);
     let textures = flat_textures(GREY, GREY, GREY);
     let mut scene = board.scene(ASPECT);
@@ -161,13 +161,13 @@ fn start_and_goal_differ_in_colour_and_the_goal_glows() {
 
 #[test]
 fn any_size_works_and_an_impossible_one_says_so() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::carved(4, 4, 2);
     let mut renderer =
         Renderer::with_detail(&gpu, CAPTURE_FORMAT, &flat_textures(GREY, GREY, GREY), Detail::FULL);
     let scene = board.scene(1.0);
     capture(&gpu, &mut renderer, [64, 48], &scene).expect("no maze yet: the table alone");
-    renderer.set_maze(&gpu, &board.mesh());
+    renderer.set_maze(&gpu, &board.mesh()).unwrap();
     for size in [[1, 1], [3, 501], [501, 3], [65, 33]] {
         let picture = capture(&gpu, &mut renderer, size, &scene).unwrap();
         assert_eq!([picture.width(), picture.height()], size);
@@ -176,20 +176,20 @@ fn any_size_works_and_an_impossible_one_says_so() {
         let refused = capture(&gpu, &mut renderer, size, &scene);
         assert!(matches!(refused, Err(GpuError::PictureSize { .. })), "{size:?}");
     }
-    renderer.set_maze(&gpu, &maze_core::surface::SurfaceMesh::default());
+    renderer.set_maze(&gpu, &maze_core::surface::SurfaceMesh::default()).unwrap();
     capture(&gpu, &mut renderer, [64, 48], &scene).expect("an empty maze");
 }
 
 #[test]
 fn a_window_s_format_gives_the_same_picture() {
-    let gpu = Gpu::offscreen().unwrap();
+    let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::carved(4, 3, 5);
     let textures = flat_textures([150, 80, 60], [176, 130, 86], GREY);
     let scene = board.scene(ASPECT);
     let expected = drawn(&gpu, &textures, &board, &scene);
     for format in [wgpu::TextureFormat::Bgra8UnormSrgb, wgpu::TextureFormat::Rgba8Unorm] {
         let mut renderer = Renderer::new(&gpu, format, &textures);
-        renderer.set_maze(&gpu, &board.mesh());
+        renderer.set_maze(&gpu, &board.mesh()).unwrap();
         let picture = capture(&gpu, &mut renderer, SIZE, &scene).unwrap();
         // Without an sRGB format edges are smoothed in encoded colours, so they differ; surfaces do not.
         let n_off = expected

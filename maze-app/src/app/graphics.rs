@@ -59,20 +59,26 @@ impl Graphics {
     }
 
     /// A new device in place of a lost one. The maze has to be set again.
-    pub(super) fn rebuild(&mut self, textures: &TextureSet) -> Result<(), Failure> {
+    pub(super) fn rebuilt(self, textures: &TextureSet) -> Result<Self, Failure> {
         if self.n_rebuilds == MAX_REBUILDS {
             return Err(Failure::bad_input(format!(
                 "the graphics device was lost {} times; is the driver all right?",
                 MAX_REBUILDS + 1
             )));
         }
-        *self = Self::build(self.display.clone(), self.window.clone(), textures, self.n_rebuilds + 1)?;
+        let Self { display, window, n_rebuilds, .. } = self;
+        Self::build(display, window, textures, n_rebuilds + 1)
+    }
+
+    pub(super) fn set_maze(&mut self, maze: &Maze, title: &str) -> Result<(), Failure> {
+        self.renderer.set_maze(&self.gpu, &maze.surface).map_err(Failure::bad_input)?;
+        self.window.set_title(title);
         Ok(())
     }
 
-    pub(super) fn set_maze(&mut self, maze: &Maze, title: &str) {
-        self.renderer.set_maze(&self.gpu, &maze.surface);
-        self.window.set_title(title);
+    /// Whether there is anything to draw on: some systems minimise a window to nothing.
+    pub(super) fn has_area(&self) -> bool {
+        self.target.has_area()
     }
 
     pub(super) fn resize(&mut self, size: [u32; 2]) {
@@ -126,6 +132,10 @@ impl Graphics {
         self.gpu.queue.submit([encoder.finish()]);
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
-        Ok(Drawn::Done)
+        match self.gpu.take_error() {
+            Some(_) if self.gpu.is_lost() => Ok(Drawn::DeviceLost),
+            Some(error) => Err(Failure::bad_input(error)),
+            None => Ok(Drawn::Done),
+        }
     }
 }

@@ -4,7 +4,6 @@ use crate::app::{self, App};
 use crate::failure::Failure;
 use crate::files;
 use crate::source::{GridSize, ReadArguments, fresh_seed, parse_grid_size};
-use crate::state_log::StateLog;
 use clap::{Args, ValueEnum};
 use maze_core::Maze;
 use maze_render::TextureSet;
@@ -113,7 +112,7 @@ pub(crate) struct Setup {
     pub(crate) source: Source,
     pub(crate) textures: TextureSet,
     pub(crate) max_tilt_rad: f64,
-    pub(crate) state_log: Option<StateLog>,
+    pub(crate) state_log: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
 }
 
@@ -127,8 +126,13 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let maze = source.load()?;
     let textures = files::textures(arguments.textures.as_deref())?;
     let event_loop = app::event_loop()?;
-    let state_log = arguments.state_log.as_deref().map(StateLog::create).transpose()?;
     let max_tilt_rad = arguments.max_tilt.to_radians();
-    let setup = Setup { source, textures, max_tilt_rad, state_log, exit_after: arguments.exit_after };
+    let setup = Setup {
+        source,
+        textures,
+        max_tilt_rad,
+        state_log: arguments.state_log,
+        exit_after: arguments.exit_after,
+    };
     App::new(setup, maze)?.run(event_loop)
 }

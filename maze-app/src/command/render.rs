@@ -69,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
     // A picture may take its time on any driver.
     let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
-    renderer.set_maze(&gpu, &game.maze().surface);
+    renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
     let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
     let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
