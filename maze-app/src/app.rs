@@ -34,9 +34,12 @@ const HIDDEN_WAKE: Duration = Duration::from_millis(100);
 
 /// The way to the window system, or one line that says why there is none.
 pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
-    EventLoop::new().map_err(|error| {
+    // The error itself names a line of the library's source, and says no more than this.
+    EventLoop::new().map_err(|_| {
+        let named = |name: &str| std::env::var(name).map(|value| format!(" ({name} is {value})"));
+        let which = named("WAYLAND_DISPLAY").or_else(|_| named("DISPLAY")).unwrap_or_default();
         Failure::bad_input(format!(
-            "no display to open a window on (`maze-app render` draws without one): {error}"
+            "no display to open a window on{which}; `maze-app render` draws without one"
         ))
     })
 }
@@ -134,7 +137,7 @@ impl App {
                 if self.source.next() {
                     self.control.level();
                     self.game = Game::new(self.source.load()?)?;
-                    self.view = View::default();
+                    self.view.show_all();
                     self.load_into_graphics()?;
                 }
             }
@@ -220,6 +223,11 @@ impl App {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::Destroyed => {
+                // Somebody else closed it: there is nothing left to draw on.
+                self.graphics = None;
+                event_loop.exit();
+            }
             WindowEvent::Resized(size) => graphics.resize(size.into()),
             WindowEvent::Occluded(hidden) => {
                 self.hidden = hidden;

@@ -9,6 +9,9 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 /// How strongly the goal shines before and after it is reached.
 const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
 
+/// Part of its way to the middle of the goal that the ball covers in a tick once it has got there.
+const SETTLE_PART: f64 = 0.2;
+
 /// Owns what a run is made of; knows nothing of windows.
 pub(crate) struct Game {
     maze: Maze,
@@ -91,14 +94,14 @@ impl Game {
         self.previous.world_from_maze = self.current.world_from_maze;
     }
 
-    /// One tick under a tilt. Once the goal is reached the ball rests and only the board moves.
+    /// One tick under a tilt. Once the goal is reached the ball settles there and only the board moves.
     pub(crate) fn tick(&mut self, tilt: Tilt) -> Result<Vec<Event>, Failure> {
         self.tilt = tilt;
         let world_from_maze = tilt.world_from_maze();
         self.previous = self.current;
         self.current.world_from_maze = world_from_maze;
         if self.run.phase() == Phase::Finished {
-            return Ok(Vec::new());
+            return self.settle().map(|()| Vec::new());
         }
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
         let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
@@ -107,6 +110,14 @@ impl Game {
         self.current.position = position;
         self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
         Ok(self.run.observe(tilt, [self.previous.position, position], &tick).collect())
+    }
+
+    /// The ball comes to rest in the middle of the goal.
+    fn settle(&mut self) -> Result<(), Failure> {
+        let way = (self.maze.goal - self.previous.position) * SETTLE_PART;
+        self.current.position = self.previous.position + way;
+        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        self.engine.place(Ball::at(self.current.position)).map_err(Failure::bad_input)
     }
 
     /// Between the last two ticks, `alpha` of the way. A board in the player's hand is shown where the hand is.

@@ -109,16 +109,23 @@ impl Maze {
     /// Polygons that are no maze of axis-aligned walls, and a ball that does not fit.
     pub fn from_polygons(mesh: &PolygonMesh, options: &AssembleOptions) -> Result<Self, AssembleError> {
         let up_axis = options.up_axis.unwrap_or_else(|| flattest_axis(mesh.positions()));
-        let survey = Survey::new(mesh, up_axis)?;
-        let raw_section = Section::new(&survey.cut_walls()?)?;
+        let mut survey = Survey::new(mesh, up_axis)?;
+        let mut raw_section = Section::new(&survey.cut_walls()?)?;
+        if raw_section.inverted {
+            // The walls look inwards, and so does all the rest: floors look down.
+            survey = Survey::new(&mesh.reversed(), up_axis)?;
+            raw_section = Section::new(&survey.cut_walls()?)?;
+        }
         let doubtful_part = raw_section.doubtful_part;
         let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
         let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor);
         let section = raw_section.map(|x| frame.x(x), |y| frame.y(y));
         let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
-        let openings = section.openings();
         let ball_radius = options.ball_radius.unwrap_or(BallSpec::RADIUS);
+        // What the ball does not fit through is a chink, not an opening.
+        let mut openings = section.openings();
+        openings.retain(|opening| 2.0 * ball_radius.units() <= opening.end - opening.start);
         let way = Way::choose(&section, &openings, ball_radius.units())
             .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?;
         let wall_height = frame.z(survey.top_z);

@@ -66,7 +66,8 @@ impl Tilt {
     pub fn world_from_maze(self) -> UnitQuaternion<f64> {
         let [x, y] = self.half_tangents();
         // Down towards +x is a turn about +y; down towards +y is a turn about -x.
-        UnitQuaternion::new_normalize(Quaternion::new(1.0, -y, x, 0.0))
+        // 0 - y and not -y: a level board has no negative zero.
+        UnitQuaternion::new_normalize(Quaternion::new(1.0, 0.0 - y, x, 0.0))
     }
 }
 

@@ -73,6 +73,8 @@ pub(crate) struct Section {
     solid: Vec<bool>, // row by row: [j * (xs.len() - 1) + i]
     /// Part of the area on which not every direction agreed, because a face is missing.
     pub(crate) doubtful_part: f64,
+    /// Whether the faces look into the walls: the file is inside out.
+    pub(crate) inverted: bool,
 }
 
 /// Sorted coordinates in which near ones are one.
@@ -151,15 +153,17 @@ impl Section {
             let n_cells = [n_x - 1, n_y - 1];
             votes(&edges, &used, axis, n_cells[axis], n_cells[1 - axis])
         });
-        let section = Self::from_votes(xs, ys, &votes)?;
+        let mut section = Self::from_votes(xs, ys, &votes)?;
         section.refuse_sheets(&edges, &used)?;
+        section.inverted = section.enters_more_than_leaves(&edges, &used) < 0;
         Ok(section)
     }
 
     /// `votes[0][j * n_x + i]` and `votes[1][i * n_y + j]` say how often cell (i, j) looked solid, 0 to 2 times each.
     fn from_votes(xs: Vec<f64>, ys: Vec<f64>, votes: &[Vec<u8>; 2]) -> Result<Self, SectionError> {
         let (n_x, n_y) = (xs.len() - 1, ys.len() - 1);
-        let mut section = Self { xs, ys, solid: vec![false; n_x * n_y], doubtful_part: 0.0 };
+        let inverted = false;
+        let mut section = Self { xs, ys, solid: vec![false; n_x * n_y], doubtful_part: 0.0, inverted };
         let (mut doubtful_area, mut tied_area, mut first_tie) = (0.0, 0.0, None);
         for j in 0..n_y {
             for i in 0..n_x {
@@ -183,6 +187,24 @@ impl Section {
             Some((x, y)) if MAX_TIED_PERCENT < percent => Err(SectionError::Open { percent, x, y }),
             _ => Ok(section),
         }
+    }
+
+    /// On how many pieces of face, walked upwards from free into solid, a wall is entered as it should be, less those on which
+    /// it is left.
+    fn enters_more_than_leaves(&self, edges: &[Edge], used: &[Vec<Option<usize>>; 2]) -> i64 {
+        let all = [0, 1].into_iter().flat_map(|axis| runs(edges, used, axis));
+        let of_run = |run: FaceRun| {
+            let into_solid = move |across: &usize| {
+                let is_solid = |step: usize| {
+                    step <= self.n_cells()[run.axis] && step != 0 && {
+                        self.is_solid_framed(run.axis, step, *across)
+                    }
+                };
+                !is_solid(run.step) && is_solid(run.step + 1)
+            };
+            i64::from(run.change.signum()) * run.across.filter(into_solid).map(|_| 1).sum::<i64>()
+        };
+        all.map(of_run).sum()
     }
 
     /// Refuses wall faces that part nothing from nothing: both sides at one place, or one side alone.

@@ -17,13 +17,13 @@ fn block(base: usize, low: [f64; 3], high: [f64; 3]) -> String {
     text
 }
 
-/// A 6 x 4 room, walls 1 thick and 2 high along +z, with a door 1.5 wide at the right end of the far wall.
+/// A 12 x 4 room, walls 1 thick and 2 high along +z, with a door 3.1 wide at the right end of the far wall.
 fn room() -> String {
     let walls = [
-        ([0.0, 0.0], [8.0, 1.0]),
+        ([0.0, 0.0], [14.0, 1.0]),
         ([0.0, 1.0], [1.0, 6.0]),
-        ([7.0, 1.0], [8.0, 6.0]),
-        ([1.0, 5.0], [5.5, 6.0]),
+        ([13.0, 1.0], [14.0, 6.0]),
+        ([1.0, 5.0], [9.9, 6.0]),
     ];
     let blocks = walls
         .iter()
@@ -44,7 +44,7 @@ fn loaded(text: &str) -> Maze {
 #[test]
 fn a_room_has_its_inner_faces_a_door_and_a_laid_floor() {
     let maze = loaded(&room());
-    // The commonest gap is the room's depth of 4 over a width of 6; scaled to 1.
+    // The commonest gap is the room's depth of 4 over a width of 12; scaled to 1.
     assert_eq!(maze.scale, 0.25);
     assert_eq!(maze.up_axis, UpAxis::Z);
     assert!(!maze.has_floor && maze.solvable);
@@ -118,6 +118,32 @@ fn a_ball_of_any_size_is_answered() {
         let result = load(&room(), &options);
         assert_eq!(result.is_ok(), radius < 0.5, "{radius}: {:?}", result.err());
     }
+}
+
+#[test]
+fn a_file_turned_inside_out_is_the_same_maze_and_looks_the_same() {
+    let turned = |line: &str| match line.strip_prefix("f ") {
+        Some(corners) => format!("f {}\n", corners.split(' ').rev().collect::<Vec<_>>().join(" ")),
+        None => format!("{line}\n"),
+    };
+    let floor = "v 0 0 0\nv 14 0 0\nv 14 6 0\nv 0 6 0\nf -4 -3 -2 -1\n";
+    let text = room() + floor;
+    let inside_out: String = text.lines().map(turned).collect();
+    let (one, other) = (loaded(&text), loaded(&inside_out));
+    assert!(one.has_floor && other.has_floor);
+    assert_eq!(one.planes, other.planes);
+    for surface in maze_core::surface::Surface::ALL {
+        let n_triangles = |maze: &Maze| maze.surface.indices_of(surface).len();
+        assert_eq!(n_triangles(&one), n_triangles(&other), "{surface:?}");
+    }
+}
+
+#[test]
+fn a_chink_is_no_opening() {
+    // The door's wall ends 0.1 before the right wall: too narrow for the ball.
+    let text = room().replace("v 9.9 ", "v 12.9 ");
+    let maze = loaded(&text);
+    assert!(maze.openings.is_empty() && maze.solvable);
 }
 
 #[test]

@@ -44,6 +44,12 @@ impl View {
         self.wanted_zoom = zoom.clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
     }
 
+    /// Back to the whole maze.
+    pub(super) fn show_all(&mut self) {
+        self.wanted_zoom = 1.0;
+        self.zoom = 1.0;
+    }
+
     pub(super) fn camera(&self) -> Camera {
         self.camera
     }

@@ -31,10 +31,10 @@ pub(crate) struct Arguments {
     /// Pixels
     #[arg(long, value_name = "WxH", value_parser = parse_pixel_size, default_value = "1280x720")]
     size: [u32; 2],
-    /// Degrees by which the board goes down towards +x and towards +y
+    /// Degrees by which the board goes down towards +x and towards +y, together at most 45
     #[arg(long, value_name = "X,Y", value_parser = parse_tilt, default_value = "0,0", allow_hyphen_values = true)]
     tilt: Tilt,
-    /// Ticks of 0.03 s under that tilt before the picture
+    /// Ticks of 0.03 s under that tilt before the picture, at most 120000
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
     ticks: u32,
     /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]

@@ -6,7 +6,7 @@ use maze_core::Phase;
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
 const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
 const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
-const GLASS: Color32 = Color32::from_rgba_premultiplied(18, 13, 9, 190);
+const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
 const MARGIN: f32 = 14.0;
@@ -68,7 +68,9 @@ impl Hud<'_> {
             return;
         }
         area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
-            ui.label(RichText::new(self.title).color(QUIET_INK));
+            // Extended, not wrapped: egui would keep to the width of the last maze's name.
+            let title = RichText::new(self.title).color(QUIET_INK);
+            ui.add(egui::Label::new(title).wrap_mode(egui::TextWrapMode::Extend));
         });
         if self.help {
             self.keys(ui.ctx());

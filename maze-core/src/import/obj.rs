@@ -34,7 +34,7 @@ pub enum ObjError {
         found: String,
     },
     /// A face that names a vertex which is not there.
-    #[error("line {line}: face uses vertex {index}, but only {n_vertices} are defined")]
+    #[error("line {line}: face uses vertex {index}, but only {n_vertices} are defined, counted from 1")]
     VertexOutOfRange {
         /// Counted from 1.
         line: usize,
@@ -92,7 +92,11 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
         return Err(ObjError::NotText { offset });
     }
     // Names and comments may be in any old encoding.
-    let text = String::from_utf8_lossy(bytes);
+    let mut text = String::from_utf8_lossy(bytes);
+    if !text.contains('\n') {
+        // Line ends of old Macintoshes.
+        text = text.replace('\r', "\n").into();
+    }
     let geometry = geometry(&text)?;
     let options = LoadOptions { ignore_lines: true, ignore_points: true, ..LoadOptions::default() };
     let no_materials = |_: &std::path::Path| Err(LoadError::OpenFileFailed);
@@ -245,15 +249,15 @@ mod tests {
         );
         assert_eq!(
             message(&format!("{SQUARE}f 1 2 9\n")),
-            "line 5: face uses vertex 9, but only 4 are defined"
+            "line 5: face uses vertex 9, but only 4 are defined, counted from 1"
         );
         assert_eq!(
             message(&format!("{SQUARE}f 1 2 -5\n")),
-            "line 5: face uses vertex -5, but only 4 are defined"
+            "line 5: face uses vertex -5, but only 4 are defined, counted from 1"
         );
         assert_eq!(
             message(&format!("{SQUARE}f 1 2 0\n")),
-            "line 5: face uses vertex 0, but only 4 are defined"
+            "line 5: face uses vertex 0, but only 4 are defined, counted from 1"
         );
         assert!(
             message(&format!("{SQUARE}f 1 b 3\n")).starts_with("line 5: expected `f` and vertex indices")
@@ -285,6 +289,8 @@ mod tests {
         let noise = "vt x\nvn 1\nl 1 2 99\np 7\nusemtl\n";
         let huge = "f 1/18446744073709551615/-3 2//6148914691236517206 3/-9 4\n";
         assert_eq!(read(format!("{SQUARE}{noise}{huge}").as_bytes()).unwrap(), whole);
+        let old = format!("{SQUARE}f 1 2 3 4\n").replace('\n', "\r");
+        assert_eq!(read(old.as_bytes()).unwrap(), whole);
         // Vertices that only lines use do not make a file look cut off.
         assert!(read(format!("{SQUARE}f 1 2 3\nl 3 4").as_bytes()).is_ok());
         // A weight or colours after the coordinates are ignored.

@@ -4,8 +4,8 @@ mod generate;
 
 pub use generate::recursive_backtracker;
 
-/// Most cells of a layout: 1024 x 1024.
-const MAX_CELLS: usize = 1 << 20;
+/// Most cells of a layout along each side.
+const MAX_SIDE: usize = 1024;
 
 /// A rectangle of cells; each pair of neighbours is joined by a passage or parted by a wall.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub struct Layout {
 
 /// A size that no layout has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a maze of {width}x{height} cells: expected at least 2 cells and at most {max}", max = MAX_CELLS)]
+#[error("a maze of {width}x{height} cells: expected at least 2 cells and at most {max} on a side", max = MAX_SIDE)]
 pub struct LayoutSizeError {
     /// Cells along x.
     pub width: usize,
@@ -32,8 +32,9 @@ impl Layout {
     /// # Errors
     /// Fewer than two cells (there is no way to go) or more than 1024 x 1024.
     pub fn walled(width: usize, height: usize) -> Result<Self, LayoutSizeError> {
+        let fits = width <= MAX_SIDE && height <= MAX_SIDE;
         match width.checked_mul(height) {
-            Some(n_cells @ 2..=MAX_CELLS) => {
+            Some(n_cells) if fits && 2 <= n_cells => {
                 Ok(Self { width, height, east: vec![false; n_cells], north: vec![false; n_cells] })
             }
             _ => Err(LayoutSizeError { width, height }),
