@@ -43,6 +43,11 @@ pub fn capture(
         view_formats: &[],
     });
     let padded_row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    if gpu.device.limits().max_buffer_size < u64::from(padded_row) * u64::from(height) {
+        return Err(GpuError::Device(format!(
+            "a picture of {width}x{height} pixels does not fit into a buffer"
+        )));
+    }
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("picture"),
         size: u64::from(padded_row) * u64::from(height),

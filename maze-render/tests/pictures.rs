@@ -14,7 +14,7 @@ const GREY: [u8; 3] = [120; 3];
 
 fn drawn(gpu: &Gpu, textures: &TextureSet, board: &Board, scene: &Scene) -> RgbaImage {
     let mut renderer = Renderer::new(gpu, CAPTURE_FORMAT, textures);
-    renderer.set_maze(gpu, &board.mesh()).unwrap();
+    renderer.set_maze(gpu, &board.mesh()).expect("a maze that fits");
     capture(gpu, &mut renderer, SIZE, scene).expect("a picture")
 }
 
@@ -178,6 +178,9 @@ fn any_size_works_and_an_impossible_one_says_so() {
     }
     renderer.set_maze(&gpu, &maze_core::surface::SurfaceMesh::default()).unwrap();
     capture(&gpu, &mut renderer, [64, 48], &scene).expect("an empty maze");
+    let without_triangles = maze_core::surface::SurfaceMesh { indices: Default::default(), ..board.mesh() };
+    renderer.set_maze(&gpu, &without_triangles).unwrap();
+    capture(&gpu, &mut renderer, [64, 48], &scene).expect("vertices alone");
 }
 
 #[test]
@@ -200,4 +203,39 @@ fn a_window_s_format_gives_the_same_picture() {
         let allowed = if format.is_srgb() { 0 } else { expected.pixels().len() / 10 };
         assert!(n_off <= allowed, "{format:?}: {n_off} pixels");
     }
+}
+
+#[test]
+fn a_maze_that_cannot_be_drawn_says_so_and_leaves_the_last_one() {
+    let gpu = Gpu::offscreen_software().unwrap();
+    let board = Board::carved(4, 3, 5);
+    let scene = board.scene(ASPECT);
+    let mut renderer = Renderer::new(&gpu, CAPTURE_FORMAT, &flat_textures(GREY, GREY, GREY));
+    renderer.set_maze(&gpu, &board.mesh()).unwrap();
+    let expected = capture(&gpu, &mut renderer, SIZE, &scene).unwrap();
+
+    let mut beyond = Board::carved(9, 9, 1).mesh();
+    beyond.indices[1][4] = u32::MAX;
+    let refused = renderer.set_maze(&gpu, &beyond);
+    assert!(matches!(refused, Err(GpuError::VertexOutOfRange { index: u32::MAX, .. })), "{refused:?}");
+
+    // More indices than fit into a buffer. Zeroes that nobody reads take no memory.
+    let max = gpu.device.limits().max_buffer_size;
+    assert!(max <= 1 << 32, "a software driver allows buffers of {max} bytes: test this another way");
+    let n_indices = usize::try_from(max / 4 + 1).unwrap();
+    let huge =
+        maze_core::surface::SurfaceMesh { indices: [vec![], vec![], vec![0; n_indices]], ..board.mesh() };
+    let refused = renderer.set_maze(&gpu, &huge);
+    let n_bytes_needed = 4 * n_indices as u64;
+    assert!(
+        matches!(refused, Err(GpuError::MazeTooLarge { n_bytes, max: m }) if n_bytes == n_bytes_needed && m == max),
+        "{refused:?}"
+    );
+    assert_eq!(n_different(&expected, &capture(&gpu, &mut renderer, SIZE, &scene).unwrap()), 0);
+}
+
+#[test]
+fn the_software_driver_is_one() {
+    let gpu = Gpu::offscreen_software().unwrap();
+    assert_eq!(gpu.adapter_info.device_type, wgpu::DeviceType::Cpu, "{}", gpu.describe());
 }
