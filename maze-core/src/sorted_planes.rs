@@ -133,8 +133,56 @@ impl SortedPlanes {
             })
     }
 
+    /// The rows of one group with offsets in a closed range, in the direction of motion of a ball that they stop.
+    pub(crate) fn rows_within(
+        &self,
+        facing: Facing,
+        [low, high]: [f64; 2],
+    ) -> impl Iterator<Item = RowView<'_>> {
+        let group = self.group(facing);
+        let first = group.rows.partition_point(|row| row.offset < low);
+        let last = first + group.rows[first..].partition_point(|row| row.offset <= high);
+        let n_rows = last - first;
+        (0..n_rows).map(move |step| {
+            let row = &group.rows[if facing.sign() < 0.0 { first + step } else { last - 1 - step }];
+            RowView { facing, offset: row.offset, intervals: &group.intervals[row.first..row.last] }
+        })
+    }
+
+    /// The plane of one facing that starts or ends at a point.
+    pub(crate) fn ending_at(&self, facing: Facing, point: Vector2<f64>) -> Option<Plane> {
+        let (across, along) = (point[facing.axis()], point[1 - facing.axis()]);
+        let row = self.rows_within(facing, [across, across]).next()?;
+        row.within([along, along]).find(|plane| plane.start == along || plane.end == along)
+    }
+
     fn group(&self, facing: Facing) -> &Group {
         &self.groups[facing as usize]
+    }
+}
+
+/// A row, to look for intervals in.
+pub(crate) struct RowView<'a> {
+    facing: Facing,
+    offset: f64,
+    intervals: &'a [Interval],
+}
+
+impl RowView<'_> {
+    pub(crate) fn offset(&self) -> f64 {
+        self.offset
+    }
+
+    /// The planes that touch a closed range along the row, ascending.
+    pub(crate) fn within(&self, [low, high]: [f64; 2]) -> impl Iterator<Item = Plane> {
+        let first = self.intervals.partition_point(|interval| interval.end < low);
+        let near = self.intervals[first..].iter().take_while(move |interval| interval.start <= high);
+        near.map(|interval| Plane {
+            facing: self.facing,
+            offset: self.offset,
+            start: interval.start,
+            end: interval.end,
+        })
     }
 }
 

@@ -1,7 +1,10 @@
 //! Engines: what moves the ball through one tick.
 
+pub mod continuous;
+mod pivot;
 pub mod published;
 
+pub use continuous::Continuous;
 pub use published::Published;
 
 use crate::ball::{Ball, BallSpec, OutOfRange};
@@ -14,6 +17,12 @@ pub struct Tick {
     pub n_steps: u32,
     /// Contacts that changed the velocity.
     pub n_hits: u32,
+    /// Those of them that were corners; always 0 for an engine that knows faces only.
+    pub n_corner_hits: u32,
+    /// Bounces that ended in rest.
+    pub n_rests: u32,
+    /// Whether the ball began inside a wall and was put outside.
+    pub recovered: bool,
     /// Largest normal speed of a hit (units/s): how loud it was.
     pub hardest_hit_speed: f64,
     /// Steps that ended with a wall still overlapped, because the bound on contacts was reached.

@@ -1,0 +1,292 @@
+//! The exact engine: within a tick the ball moves on a parabola from touch to touch, without substeps or penetration.
+
+use super::pivot::{self, Pivot};
+use super::{Engine, Tick};
+use crate::ball::{Ball, BallSpec, OutOfRange};
+use crate::contact;
+use crate::impact::{self, Impact, Path, TOUCH, Touched};
+use crate::plane::{Facing, Plane};
+use crate::roots::falls_through_zero;
+use crate::sorted_planes::SortedPlanes;
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+/// A ball whose next bounce would rise less than this (units) comes to rest: large against rounding at 100 units (1.4e-14),
+/// small against a pixel (about 1e-2). Infinitely many ever smaller bounces end here.
+pub const REST_APEX: f64 = 1.0e-9;
+
+/// Most events in a tick (touches, face ends, lift-offs). Real play has a handful; a ball hammered at 10⁴ units/s in a gap
+/// of 1e-6 has more, and the time that is left is dropped and reported.
+pub const MAX_EVENTS: u32 = 256;
+
+/// Most walls a ball that starts inside of them is pushed out of, one after the other.
+const MAX_RECOVERIES: u32 = 16;
+
+/// What carries the ball.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Support {
+    /// A face across x and one across y that the ball is pressed onto and may slide along.
+    faces: [Option<Plane>; 2],
+    /// A corner that it rolls around.
+    corner: Option<Pivot>,
+}
+
+/// The exact engine. Its motion does not depend on the tick's length, nor its cost on the speed.
+#[derive(Clone, Debug)]
+pub struct Continuous {
+    planes: Arc<SortedPlanes>,
+    spec: BallSpec,
+    tick_s: f64,
+    ball: Ball,
+    support: Support,
+    /// Whether the ball was put here from outside and may lie inside a wall.
+    is_placed: bool,
+}
+
+impl Continuous {
+    /// A ball among planes; `tick_s` is the length of a tick (s).
+    ///
+    /// # Errors
+    /// A position, velocity or tick length that is not finite; a tick length that is not greater than 0.
+    pub fn new(
+        planes: Arc<SortedPlanes>,
+        spec: BallSpec,
+        ball: Ball,
+        tick_s: f64,
+    ) -> Result<Self, OutOfRange> {
+        if !tick_s.is_finite() || tick_s <= 0.0 {
+            return Err(OutOfRange { what: "the tick's length", expected: "a finite number greater than 0" });
+        }
+        let (spec, ball) = (spec.checked()?, ball.checked()?);
+        Ok(Self { planes, spec, tick_s, ball, support: Support::default(), is_placed: true })
+    }
+
+    fn radius(&self) -> f64 {
+        self.spec.radius.units()
+    }
+
+    /// Lets go of faces that the acceleration no longer presses the ball onto.
+    fn release(&mut self, acceleration: Vector2<f64>) {
+        for face in &mut self.support.faces {
+            *face = face.filter(|face| acceleration[face.facing.axis()] * face.facing.sign() < 0.0);
+        }
+    }
+
+    /// The ball's path from now on: what a face carries does not accelerate into it.
+    fn path(&self, acceleration: Vector2<f64>) -> Path {
+        let mut path = Path { position: self.ball.position, velocity: self.ball.velocity, acceleration };
+        for face in self.support.faces.into_iter().flatten() {
+            path.acceleration[face.facing.axis()] = 0.0;
+        }
+        path
+    }
+
+    /// When and off which end the ball slides off a face that carries it.
+    fn slides_off(&self, path: &Path) -> Option<(f64, Plane, Vector2<f64>)> {
+        let ends = self.support.faces.into_iter().flatten().flat_map(|face| {
+            let axis = 1 - face.facing.axis();
+            let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
+            let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
+            let lower =
+                falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
+            [upper, lower].into_iter().flatten().map(move |(time_s, end)| {
+                let mut point = Vector2::zeros();
+                point[1 - axis] = face.offset;
+                point[axis] = end;
+                (time_s, face, point)
+            })
+        });
+        ends.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Moves along a path; a face that carries the ball keeps it exactly at its radius.
+    fn advance(&mut self, path: &Path, time_s: f64) {
+        self.ball = Ball { position: path.at(time_s), velocity: path.velocity_at(time_s) };
+        for face in self.support.faces.into_iter().flatten() {
+            let axis = face.facing.axis();
+            self.ball.position[axis] = face.offset + face.facing.sign() * self.radius();
+            self.ball.velocity[axis] = 0.0;
+        }
+    }
+
+    /// Flies or slides until the next event or for `left_s`; returns the time that passed.
+    fn fly(&mut self, acceleration: Vector2<f64>, left_s: f64, tick: &mut Tick) -> f64 {
+        let path = self.path(acceleration);
+        let impact = impact::first(&self.planes, &path, self.radius(), left_s, None);
+        let until_s = impact.map_or(left_s, |impact| impact.time_s);
+        if let Some((time_s, face, point)) = self.slides_off(&path)
+            && time_s < until_s
+        {
+            self.advance(&path, time_s);
+            self.support.faces[face.facing.axis()] = None;
+            // Off the end the ball either flies on or, when it is too slow, rolls around the corner.
+            self.ball.position[1 - face.facing.axis()] = point[1 - face.facing.axis()];
+            self.support.corner = Pivot::at(&self.planes, point);
+            return time_s;
+        }
+        self.advance(&path, until_s);
+        match impact {
+            Some(Impact { touched: Touched::Face(face), .. }) => {
+                self.bounce_off_face(face, acceleration, tick)
+            }
+            Some(Impact { touched: Touched::Corner(point), .. }) => {
+                self.bounce_off_corner(point, acceleration, tick);
+            }
+            None => {}
+        }
+        until_s
+    }
+
+    fn bounce_off_face(&mut self, face: Plane, acceleration: Vector2<f64>, tick: &mut Tick) {
+        let (axis, sign) = (face.facing.axis(), face.facing.sign());
+        // Exactly at the radius: a gap of one rounding would make ghost touches of the corners.
+        self.ball.position[axis] = face.offset + sign * self.radius();
+        let speed = -self.ball.velocity[axis] * sign;
+        let rebound = self.spec.restitution * speed;
+        self.note_hit(speed, tick);
+        if is_rest(rebound, acceleration[axis] * sign) {
+            self.ball.velocity[axis] = 0.0;
+            self.support.faces[axis] = Some(face);
+            tick.n_rests += 1;
+        } else {
+            self.ball.velocity[axis] = sign * rebound;
+        }
+    }
+
+    fn bounce_off_corner(&mut self, point: Vector2<f64>, acceleration: Vector2<f64>, tick: &mut Tick) {
+        let Some(normal) = (self.ball.position - point).try_normalize(0.0) else { return };
+        self.ball.position = point + normal * self.radius();
+        let speed = -self.ball.velocity.dot(&normal);
+        let rebound = self.spec.restitution * speed;
+        self.note_hit(speed, tick);
+        tick.n_corner_hits += 1;
+        self.ball.velocity += normal * (speed + rebound);
+        // A face that carried the ball either gets it back at once, or has lost it.
+        self.support.faces = [None; 2];
+        if is_rest(rebound, acceleration.dot(&normal)) {
+            self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
+            self.support.corner = Pivot::at(&self.planes, point);
+            tick.n_rests += 1;
+        }
+    }
+
+    fn note_hit(&self, speed: f64, tick: &mut Tick) {
+        tick.n_hits += 1;
+        if tick.hardest_hit_speed < speed {
+            tick.hardest_hit_speed = speed;
+        }
+    }
+
+    /// Rolls around a corner until the next event or for `left_s`; returns the time that passed.
+    fn roll(&mut self, pivot: Pivot, acceleration: Vector2<f64>, left_s: f64, tick: &mut Tick) -> f64 {
+        let roll = pivot.roll(&self.planes, self.ball, self.radius(), acceleration, left_s);
+        self.ball = roll.ball;
+        match roll.end {
+            pivot::End::Time => {}
+            pivot::End::LiftOff => self.support.corner = None,
+            pivot::End::Face(face) => {
+                self.support = Support::default();
+                self.support.faces[face.facing.axis()] = Some(face);
+            }
+            pivot::End::Hit(impact) => {
+                let before = self.ball.velocity;
+                match impact.touched {
+                    Touched::Face(face) => self.bounce_off_face(face, Vector2::zeros(), tick),
+                    Touched::Corner(point) => self.bounce_off_corner(point, Vector2::zeros(), tick),
+                }
+                // Pressed into the gap between the corner and what was hit: it stays there while the tick lasts.
+                let pull = acceleration.norm();
+                if self.ball.velocity.norm_squared() < 2.0 * pull * REST_APEX
+                    && before.norm_squared() < 2.0 * pull * REST_APEX
+                {
+                    self.ball.velocity = Vector2::zeros();
+                    self.support = Support { corner: Some(pivot), ..Support::default() };
+                    tick.n_rests += 1;
+                    return left_s;
+                }
+                self.support.corner = None;
+            }
+        }
+        roll.time_s
+    }
+
+    /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first.
+    fn recover(&mut self, tick: &mut Tick) {
+        for _ in 0..MAX_RECOVERIES {
+            let centre = self.ball.position;
+            let radius = self.radius();
+            let deepest = Facing::ALL
+                .into_iter()
+                .flat_map(|facing| {
+                    let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
+                    let rows = self.planes.rows_within(facing, [across - radius, across + radius]);
+                    rows.flat_map(move |row| row.within([along - radius, along + radius]).collect::<Vec<_>>())
+                })
+                .filter_map(|plane| contact::find(centre, radius, &plane))
+                .filter(|contact| TOUCH < contact.penetration)
+                .max_by(|a, b| a.penetration.total_cmp(&b.penetration));
+            let Some(contact) = deepest else { return };
+            let facing = contact.plane.facing;
+            let front = (centre[facing.axis()] - contact.plane.offset) * facing.sign();
+            // In front, away from the closest point; behind, through the face.
+            let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
+            self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
+            tick.recovered = true;
+            if tick.deepest_penetration < contact.penetration {
+                tick.deepest_penetration = contact.penetration;
+            }
+        }
+    }
+}
+
+/// Whether a bounce that leaves with this speed against a pressing acceleration is one too small to follow.
+fn is_rest(rebound: f64, normal_acceleration: f64) -> bool {
+    normal_acceleration < 0.0 && rebound * rebound < -2.0 * normal_acceleration * REST_APEX
+}
+
+impl Engine for Continuous {
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        let acceleration = acceleration * self.spec.rolling;
+        let end = self.ball.velocity + acceleration * self.tick_s;
+        if !end.iter().all(|value| value.is_finite()) {
+            return Err(OutOfRange::not_finite("the acceleration"));
+        }
+        let mut tick = Tick { n_steps: 1, ..Tick::default() };
+        if self.is_placed {
+            self.recover(&mut tick);
+            self.is_placed = false;
+        }
+        self.release(acceleration);
+        let mut left_s = self.tick_s;
+        for _ in 0..MAX_EVENTS {
+            left_s -= match self.support.corner {
+                Some(pivot) => self.roll(pivot, acceleration, left_s, &mut tick),
+                None => self.fly(acceleration, left_s, &mut tick),
+            };
+            if left_s <= 0.0 {
+                return Ok(tick);
+            }
+        }
+        tick.dropped_s = left_s;
+        Ok(tick)
+    }
+
+    fn ball(&self) -> Ball {
+        self.ball
+    }
+
+    fn place(&mut self, ball: Ball) -> Result<(), OutOfRange> {
+        self.ball = ball.checked()?;
+        self.support = Support::default();
+        self.is_placed = true;
+        Ok(())
+    }
+
+    fn spec(&self) -> &BallSpec {
+        &self.spec
+    }
+
+    fn tick_s(&self) -> f64 {
+        self.tick_s
+    }
+}

@@ -1,0 +1,288 @@
+//! Time of impact: when a circle on a parabola first touches a face or a corner.
+//!
+//! Times are counted from the parabola's start and are bit for bit the same whichever way the planes are searched: every
+//! search hands the same numbers to the same functions.
+
+use crate::plane::{Facing, Plane};
+use crate::roots::{bracketed_root, falls_through_zero, quadratic_roots};
+use crate::sorted_planes::SortedPlanes;
+use nalgebra::Vector2;
+
+/// At the start a corner is touched only when approached faster than this part of the speed: what is slower is the
+/// rounding of a ball that has just left it or slides by.
+const GRAZE: f64 = 1.0e-10;
+
+/// A circle overlapping a face by less than this (units) touches it: large against rounding on the largest boards (1e-12),
+/// small against anything seen.
+pub const TOUCH: f64 = 1.0e-10;
+
+/// A path that reaches less than half of this (units) behind a corner's touch only grazes it. A graze has a double root,
+/// which rounding (1e-14 at 100 units) would place anywhere within 1e-7 s or nowhere.
+const GRAZE_EXCESS: f64 = 1.0e-12;
+
+/// Searches look this much farther than the radius, so that no rounding (1e-12 on the largest boards) hides a touch.
+const REACH: f64 = 1.0 + 1.0e-6;
+
+/// Motion under constant acceleration: position + velocity t + acceleration t² / 2.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// Where it starts (units).
+    pub position: Vector2<f64>,
+    /// At the start (units/s).
+    pub velocity: Vector2<f64>,
+    /// Throughout (units/s²).
+    pub acceleration: Vector2<f64>,
+}
+
+/// What is touched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Touched {
+    /// A face, within its extent.
+    Face(Plane),
+    /// The end of a face.
+    Corner(Vector2<f64>),
+}
+
+/// The first touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// From the start of the path (s).
+    pub time_s: f64,
+    /// What is touched.
+    pub touched: Touched,
+}
+
+impl Path {
+    /// Where the path is at a time (s).
+    pub fn at(&self, time_s: f64) -> Vector2<f64> {
+        self.position + (self.velocity + self.acceleration * (time_s / 2.0)) * time_s
+    }
+
+    /// Its velocity at a time (s).
+    pub fn velocity_at(&self, time_s: f64) -> Vector2<f64> {
+        self.velocity + self.acceleration * time_s
+    }
+
+    /// Least and greatest coordinate along one axis between two times.
+    fn range(&self, axis: usize, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
+        let at = |time_s: f64| {
+            self.position[axis] + (self.velocity[axis] + self.acceleration[axis] * (time_s / 2.0)) * time_s
+        };
+        let ends = [at(from_s), at(to_s)];
+        let [mut low, mut high] = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
+        let turn_s = -self.velocity[axis] / self.acceleration[axis];
+        if from_s < turn_s && turn_s < to_s {
+            let turn = at(turn_s);
+            low = if turn < low { turn } else { low };
+            high = if high < turn { turn } else { high };
+        }
+        [low, high]
+    }
+}
+
+/// When a circle on a path first touches a face from its front, within the face's extent.
+///
+/// `None` when it moves away, runs parallel, or passes beside. A centre behind the face counts as beside it: the touch is
+/// the fall after it has come round to the front.
+pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
+    let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
+    let gap = (path.position[axis] - plane.offset) * sign - radius;
+    // A ball set down exactly at its radius may read as a rounding inside.
+    let gap = if -TOUCH < gap && gap < 0.0 { 0.0 } else { gap };
+    let time_s = falls_through_zero(gap, path.velocity[axis] * sign, path.acceleration[axis] * sign)?;
+    let (along, speed) = (path.at(time_s)[1 - axis], path.velocity_at(time_s)[1 - axis]);
+    // Over the very end and on the way out the circle is the corner's, which knows whether it is pressed.
+    let leaves = (along == plane.end && 0.0 < speed) || (along == plane.start && speed < 0.0);
+    (plane.start <= along && along <= plane.end && !leaves).then_some(time_s)
+}
+
+/// When a circle on a path first touches a point, within `horizon_s`.
+///
+/// Touching or overlapping at the start and closing gives 0; at the start and separating gives the next touch, if any;
+/// a graze gives `None` unless the acceleration presses the circle onto the point.
+///
+/// The squared distance is a quartic in t. Its turning points are isolated by those of its derivative, whose own are the
+/// roots of a quadratic; in each stretch that falls through zero the root is bracketed and found by safeguarded Newton.
+pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> Option<f64> {
+    let from_point = Path { position: path.position - point, ..*path };
+    let (v, a) = (path.velocity, path.acceleration);
+    let excess = |t: f64| from_point.at(t).norm_squared() - radius * radius;
+    let half_slope = |t: f64| from_point.at(t).dot(&from_point.velocity_at(t));
+    let half_curve = |t: f64| from_point.velocity_at(t).norm_squared() + from_point.at(t).dot(&a);
+    let is_touch = |t: f64| {
+        let approach = half_slope(t) / radius;
+        let graze = GRAZE * from_point.velocity_at(t).norm();
+        approach < -graze || (approach <= graze && half_curve(t) < 0.0)
+    };
+    if excess(0.0) <= 0.0 && is_touch(0.0) {
+        return Some(0.0);
+    }
+    let within = |t: &f64| 0.0 < *t && *t < horizon_s;
+    // Where the slope may turn: half its derivative is 3/2 a² t² + 3 a.v t + v² + a.d.
+    let bends = quadratic_roots(
+        1.5 * a.norm_squared(),
+        3.0 * a.dot(&v),
+        v.norm_squared() + a.dot(&from_point.position),
+    );
+    let mut turns = [0.0; 5]; // the start, at most three turning points, the end
+    let mut n_turns = 1;
+    let mut from = 0.0;
+    for to in bends.into_iter().flatten().filter(within).chain([horizon_s]) {
+        if (half_slope(from) < 0.0) != (half_slope(to) < 0.0) {
+            turns[n_turns] = bracketed_root(from, to, |t| (half_slope(t), half_curve(t)));
+            n_turns += 1;
+        }
+        from = to;
+    }
+    turns[n_turns] = horizon_s;
+    (0..n_turns).find_map(|index| {
+        let [from, to] = [turns[index], turns[index + 1]];
+        // At a turning point the path is at its nearest or farthest: what rounding makes of a graze there is neither a
+        // touch nor a start inside.
+        let graze = GRAZE_EXCESS * radius;
+        let deep_enough = if index + 1 < n_turns { excess(to) < -graze } else { excess(to) <= 0.0 };
+        if excess(from) < -graze || !deep_enough {
+            return None;
+        }
+        let time_s = match 0.0 < excess(from) {
+            true => bracketed_root(from, to, |t| (excess(t), 2.0 * half_slope(t))),
+            false => from,
+        };
+        is_touch(time_s).then_some(time_s)
+    })
+}
+
+/// The best impact so far: the earliest, and of equal times the one of the lowest rank.
+#[derive(Clone, Copy, Debug)]
+struct First {
+    horizon_s: f64,
+    until_s: f64,
+    impact: Option<Impact>,
+}
+
+impl First {
+    fn within(horizon_s: f64) -> Self {
+        Self { horizon_s, until_s: horizon_s, impact: None }
+    }
+
+    fn offer(&mut self, path: &Path, radius: f64, plane: &Plane, ignored: Option<Vector2<f64>>) {
+        if let Some(time_s) = face(path, radius, plane) {
+            self.keep(Impact { time_s, touched: Touched::Face(*plane) });
+        }
+        for along in [plane.start, plane.end] {
+            let mut point = Vector2::zeros();
+            point[plane.facing.axis()] = plane.offset;
+            point[1 - plane.facing.axis()] = along;
+            if ignored == Some(point) || self.is_beside(path, radius, point) {
+                continue;
+            }
+            // The root is sought within the whole time, not within what is left of it: its bits must not depend on what
+            // was found before.
+            if let Some(time_s) = corner(path, radius, point, self.horizon_s) {
+                self.keep(Impact { time_s, touched: Touched::Corner(point) });
+            }
+        }
+    }
+
+    /// Whether a point stays out of reach until the best impact so far: the usual case, told without a root.
+    fn is_beside(&self, path: &Path, radius: f64, point: Vector2<f64>) -> bool {
+        let reach = radius * REACH;
+        [0, 1].into_iter().any(|axis| {
+            let [low, high] = path.range(axis, [0.0, self.until_s]);
+            point[axis] + reach < low || high < point[axis] - reach
+        })
+    }
+
+    fn keep(&mut self, impact: Impact) {
+        let is_better = match self.impact {
+            None => impact.time_s <= self.horizon_s,
+            Some(known) => rank(&impact) < rank(&known),
+        };
+        if is_better {
+            self.until_s = impact.time_s;
+            self.impact = Some(impact);
+        }
+    }
+}
+
+/// A total order of impacts, so that the order of the search does not show.
+fn rank(impact: &Impact) -> (f64, u8, f64, f64) {
+    match impact.touched {
+        Touched::Face(plane) => (impact.time_s, plane.facing as u8, plane.offset, plane.start),
+        Touched::Corner(point) => (impact.time_s, 4, point.x, point.y),
+    }
+}
+
+/// The faces that a path can run into within a time: those that oppose its velocity at the start or at the end.
+fn opposed(path: &Path, until_s: f64) -> impl Iterator<Item = Facing> {
+    let (start, end) = (path.velocity, path.velocity_at(until_s));
+    Facing::ALL.into_iter().filter(move |facing| {
+        let (axis, sign) = (facing.axis(), facing.sign());
+        start[axis] * sign < 0.0 || end[axis] * sign < 0.0
+    })
+}
+
+/// What a circle on a path touches first within `until_s`; a corner at exactly `ignored` is passed over.
+///
+/// The search goes through the groups that oppose the motion, row by row in its direction, and in each row through the
+/// intervals that the circle passes while the row is within its reach. Needs finite numbers.
+pub fn first(
+    planes: &SortedPlanes,
+    path: &Path,
+    radius: f64,
+    until_s: f64,
+    ignored: Option<Vector2<f64>>,
+) -> Option<Impact> {
+    let mut first = First::within(until_s);
+    for facing in opposed(path, until_s) {
+        let axis = facing.axis();
+        let reach = radius * REACH;
+        let [low, high] = path.range(axis, [0.0, first.until_s]);
+        for row in planes.rows_within(facing, [low - reach, high + reach]) {
+            // A touch found meanwhile shortens the time, and with it the way.
+            let [low, high] = path.range(axis, [0.0, first.until_s]);
+            if row.offset() + reach < low || high < row.offset() - reach {
+                continue;
+            }
+            let window = while_near(path, axis, row.offset(), radius, first.until_s);
+            let [low, high] = path.range(1 - axis, window);
+            for plane in row.within([low - reach, high + reach]) {
+                first.offer(path, radius, &plane, ignored);
+            }
+        }
+    }
+    first.impact
+}
+
+/// The plain truth that [`first`] is tested against: every plane of every group.
+pub fn first_scan(
+    planes: &SortedPlanes,
+    path: &Path,
+    radius: f64,
+    until_s: f64,
+    ignored: Option<Vector2<f64>>,
+) -> Option<Impact> {
+    let mut first = First::within(until_s);
+    for plane in Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing)) {
+        first.offer(path, radius, &plane, ignored);
+    }
+    first.impact
+}
+
+/// A time window that holds every moment at which the coordinate is within `radius` of `offset`, widened for rounding.
+///
+/// Where the motion along the axis turns within the time, the window is all of it.
+fn while_near(path: &Path, axis: usize, offset: f64, radius: f64, until_s: f64) -> [f64; 2] {
+    let (start, end) = (path.velocity[axis], path.velocity_at(until_s)[axis]);
+    if start * end <= 0.0 {
+        return [0.0, until_s];
+    }
+    let sign = if start < 0.0 { 1.0 } else { -1.0 };
+    let gap = (path.position[axis] - offset) * sign;
+    let when = |gap: f64| falls_through_zero(gap, start * sign, path.acceleration[axis] * sign);
+    // The far edge of the band is never reached when the motion ends before it.
+    let reach = radius * REACH;
+    let from = if gap <= reach { 0.0 } else { when(gap - reach).unwrap_or(0.0) };
+    let to = when(gap + reach).unwrap_or(until_s);
+    [if from < until_s { from } else { until_s }, if to < until_s { to } else { until_s }]
+}
