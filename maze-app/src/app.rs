@@ -6,7 +6,7 @@ mod view;
 use crate::clock::Clock;
 use crate::command::play::{Setup, Source};
 use crate::failure::Failure;
-use crate::game::{Game, to_f32};
+use crate::game::{EngineKind, Game, to_f32};
 use crate::input::{self, Action, TiltControl};
 use crate::state_log::{State, StateLog};
 use crate::ui::Hud;
@@ -51,6 +51,7 @@ pub(crate) struct App {
     control: TiltControl,
     view: View,
     source: Source,
+    engine: EngineKind,
     textures: TextureSet,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
@@ -70,7 +71,7 @@ pub(crate) struct App {
 
 impl App {
     pub(crate) fn new(setup: Setup, maze: Maze) -> Result<Self, Failure> {
-        let game = Game::new(maze)?;
+        let game = Game::new(maze, setup.engine)?;
         let now = Instant::now();
         Ok(Self {
             clock: Clock::new(game.tick_s()),
@@ -78,6 +79,7 @@ impl App {
             control: TiltControl::new(setup.max_tilt_rad),
             view: View::default(),
             source: setup.source,
+            engine: setup.engine,
             textures: setup.textures,
             state_log_path: setup.state_log,
             state_log: None,
@@ -136,7 +138,7 @@ impl App {
             Action::NewMaze => {
                 if self.source.next() {
                     self.control.level();
-                    self.game = Game::new(self.source.load()?)?;
+                    self.game = Game::new(self.source.load()?, self.engine)?;
                     self.view.show_all();
                     self.load_into_graphics()?;
                 }

@@ -3,8 +3,9 @@
 use crate::app::{self, App};
 use crate::failure::Failure;
 use crate::files;
+use crate::game::EngineKind;
 use crate::source::{GridSize, ReadArguments, fresh_seed, parse_grid_size};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use maze_core::Maze;
 use maze_render::TextureSet;
 use std::path::PathBuf;
@@ -30,8 +31,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
     size: GridSize,
     /// How the ball's motion is computed
-    #[arg(long, value_enum, default_value_t = Engine::Published)]
-    engine: Engine,
+    #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
+    engine: EngineKind,
     /// Steepest tilt of the board, 1 to 45 degrees
     #[arg(long, value_name = "DEGREES", value_parser = parse_max_tilt, default_value = "20")]
     max_tilt: f64,
@@ -44,12 +45,6 @@ pub(crate) struct Arguments {
     /// End by itself after this time
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     exit_after: Option<Duration>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Engine {
-    /// The report's method, step for step
-    Published,
 }
 
 fn parse_max_tilt(text: &str) -> Result<f64, String> {
@@ -111,13 +106,13 @@ impl Source {
 pub(crate) struct Setup {
     pub(crate) source: Source,
     pub(crate) textures: TextureSet,
+    pub(crate) engine: EngineKind,
     pub(crate) max_tilt_rad: f64,
     pub(crate) state_log: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
-    let Engine::Published = arguments.engine;
     let kind = match arguments.file {
         Some(path) => Kind::File(path),
         None => Kind::Random { size: arguments.size, seed: arguments.seed.unwrap_or_else(fresh_seed) },
@@ -130,6 +125,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let setup = Setup {
         source,
         textures,
+        engine: arguments.engine,
         max_tilt_rad,
         state_log: arguments.state_log,
         exit_after: arguments.exit_after,

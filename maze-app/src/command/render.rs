@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
-use crate::game::Game;
+use crate::game::{EngineKind, Game};
 use crate::source::{ReadArguments, parse_pixel_size};
 use crate::ui::to_points;
 use clap::Args;
@@ -37,6 +37,9 @@ pub(crate) struct Arguments {
     /// Ticks of 0.03 s under that tilt before the picture, at most 120000
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
     ticks: u32,
+    /// How the ball's motion is computed
+    #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
+    engine: EngineKind,
     /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
@@ -61,7 +64,7 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
     let textures = files::textures(arguments.textures.as_deref())?;
-    let mut game = Game::new(arguments.read.load(&arguments.file)?)?;
+    let mut game = Game::new(arguments.read.load(&arguments.file)?, arguments.engine)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;
     }
