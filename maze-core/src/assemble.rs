@@ -126,7 +126,8 @@ impl Maze {
         // What the ball does not fit through is a chink, not an opening.
         let mut openings = section.openings();
         openings.retain(|opening| 2.0 * ball_radius.units() <= opening.end - opening.start);
-        let way = Way::choose(&section, &openings, ball_radius.units())
+        let reach = Reach::new(&section, ball_radius.units());
+        let way = Way::choose(&reach, &openings, ball_radius.units())
             .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?;
         let wall_height = frame.z(survey.top_z);
         Ok(Self {
@@ -140,6 +141,7 @@ impl Maze {
             goal: way.goal,
             goal_radius: GOAL_RADIUS,
             solvable: way.solvable,
+            reach: Arc::new(reach),
             up_axis,
             scale: frame.scale(),
             has_floor: survey.has_floor,
@@ -291,8 +293,7 @@ struct Way {
 impl Way {
     /// Two openings of the outer wall, the farthest apart of those joined by a way; with one opening, it is the goal and
     /// the start is as far as can be; without any, the two ends of the longest way. `None` when the ball fits nowhere.
-    fn choose(section: &Section, openings: &[Plane], radius: f64) -> Option<Self> {
-        let reach = Reach::new(section, radius);
+    fn choose(reach: &Reach, openings: &[Plane], radius: f64) -> Option<Self> {
         let doors: Vec<(Vector2<f64>, usize)> = openings
             .iter()
             .filter_map(|opening| {
@@ -303,7 +304,7 @@ impl Way {
             })
             .collect();
         if let [first, second, ..] = doors[..] {
-            return Some(Self::between_doors(&reach, &doors, [first.0, second.0]));
+            return Some(Self::between_doors(reach, &doors, [first.0, second.0]));
         }
         let (near_end, goal) = match doors.first() {
             Some(&(door, cell)) => (cell, door),

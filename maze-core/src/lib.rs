@@ -36,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 mod assemble;
+mod autopilot;
 mod ball;
 pub mod contact;
 pub mod engine;
@@ -58,6 +59,7 @@ mod sorted_planes;
 pub mod surface;
 
 pub use assemble::{AssembleError, AssembleOptions};
+pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
 pub use engine::{Continuous, Engine, Published, Tick};
 pub use gravity::Tilt;

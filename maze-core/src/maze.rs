@@ -3,6 +3,7 @@
 use crate::ball::Radius;
 use crate::plane::Plane;
 use crate::polygons::UpAxis;
+use crate::reach::Reach;
 use crate::sorted_planes::SortedPlanes;
 use crate::surface::SurfaceMesh;
 use nalgebra::Vector2;
@@ -58,6 +59,8 @@ pub struct Maze {
     pub goal_radius: f64,
     /// Whether a way leads from start to goal.
     pub solvable: bool,
+    /// Where the ball's centre can be.
+    pub(crate) reach: Arc<Reach>,
     /// Which axis of the file points out of the board.
     pub up_axis: UpAxis,
     /// Maze units in a unit of the file.

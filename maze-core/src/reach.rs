@@ -8,6 +8,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Rectangles of possible centres between all wall coordinates ± the radius.
+#[derive(Debug)]
 pub(crate) struct Reach {
     xs: Vec<f64>,
     ys: Vec<f64>,
@@ -15,6 +16,7 @@ pub(crate) struct Reach {
 }
 
 /// Length of the way to every cell (units, from centre to centre); infinite where there is none.
+#[derive(Clone, Debug)]
 pub(crate) struct Distances(Vec<f64>);
 
 /// Widest cell (units): a corridor, so that the ends of a bare one are cells of their own, and its middle stays whole ...
@@ -101,7 +103,7 @@ impl Reach {
     }
 
     /// The free cells beside a cell.
-    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
         let n_x = self.n_x();
         let (i, j) = (cell % n_x, cell / n_x);
         let neighbours = [

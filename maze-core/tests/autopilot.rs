@@ -1,0 +1,62 @@
+//! The autopilot against many mazes, on both engines.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use maze_core::{
+    AssembleOptions, Autopilot, Ball, BallSpec, Continuous, Engine, Maze, Phase, Published, Run, extrude,
+    gravity, layout,
+};
+
+/// The player's limit: the tangent of 10 degrees, half of 20.
+const LIMIT: f64 = 0.176;
+
+/// Longest run that is waited for: an hour of play.
+const MOST_TICKS: u64 = 120_000;
+
+/// Ticks to the goal; `None` when it is not reached.
+fn play(maze: &Maze, engine: &mut dyn Engine) -> Option<u64> {
+    let mut autopilot = Autopilot::new(maze, LIMIT).unwrap();
+    let mut run = Run::new(maze);
+    for _ in 0..MOST_TICKS {
+        let from = engine.ball();
+        let tilt = autopilot.tilt(from);
+        let tick = engine.tick(gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze())).unwrap();
+        run.observe(tilt, [from.position, engine.ball().position], &tick).count();
+        if run.phase() == Phase::Finished {
+            return Some(run.n_ticks());
+        }
+    }
+    None
+}
+
+fn maze(width: usize, height: usize, seed: u64) -> Maze {
+    let layout = layout::recursive_backtracker(width, height, seed).unwrap();
+    Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap()
+}
+
+#[test]
+fn finishes_200_of_200_random_mazes_on_both_engines() {
+    let mut slowest = 0;
+    for seed in 1..=200 {
+        let maze = maze(20, 20, seed);
+        let (spec, ball) = (BallSpec::default(), Ball::at(maze.start));
+        let mut exact = Continuous::new(maze.planes.clone(), spec, ball, Published::TICK_S).unwrap();
+        let mut published = Published::new(maze.planes.clone(), spec, ball).unwrap();
+        for (name, engine) in [("continuous", &mut exact as &mut dyn Engine), ("published", &mut published)] {
+            let n_ticks = play(&maze, engine);
+            assert!(n_ticks.is_some(), "seed {seed}, {name}: stuck at {:?}", engine.ball());
+            slowest = slowest.max(n_ticks.unwrap());
+        }
+    }
+    println!("slowest: {slowest} ticks");
+}
+
+#[test]
+fn the_same_maze_is_played_the_same_way() {
+    let maze = maze(6, 6, 3);
+    let play = || {
+        let ball = Ball::at(maze.start);
+        let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
+        (play(&maze, &mut engine), engine.ball())
+    };
+    assert_eq!(play(), play());
+}
