@@ -4,10 +4,11 @@ mod graphics;
 mod view;
 
 use crate::clock::Clock;
-use crate::command::play::{Setup, Source};
+use crate::command::play::Setup;
 use crate::failure::Failure;
 use crate::game::{EngineKind, Game, to_f32};
 use crate::input::{self, Action, TiltControl};
+use crate::source::Source;
 use crate::state_log::{State, StateLog};
 use crate::ui::Hud;
 use graphics::{Drawn, Graphics};

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::input::TiltControl;
 use clap::ValueEnum;
 use maze_core::{
-    Ball, BallSpec, Continuous, Engine, Event, Maze, OutOfRange, Phase, Published, Run, Tilt, gravity,
+    Ball, BallSpec, Continuous, Engine, Event, Maze, OutOfRange, Phase, Published, Run, Tick, Tilt, gravity,
 };
 use maze_render::{BallView, Camera, Marker, Scene};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -25,6 +25,14 @@ pub(crate) enum EngineKind {
 }
 
 impl EngineKind {
+    /// As on the command line.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Continuous => "continuous",
+            Self::Published => "published",
+        }
+    }
+
     fn build(self, maze: &Maze) -> Result<Box<dyn Engine>, OutOfRange> {
         let spec = BallSpec { radius: maze.ball_radius, ..BallSpec::default() };
         let (planes, ball) = (maze.planes.clone(), Ball::at(maze.start));
@@ -40,6 +48,7 @@ pub(crate) struct Game {
     maze: Maze,
     engine: Box<dyn Engine>,
     run: Run,
+    last_tick: Tick,
     tilt: Tilt,
     previous: Pose,
     current: Pose,
@@ -71,11 +80,17 @@ impl Game {
         let engine = engine.build(&maze).map_err(Failure::bad_input)?;
         let start = Pose::at_start(&maze);
         let run = Run::new(&maze);
-        Ok(Self { maze, engine, run, tilt: Tilt::LEVEL, previous: start, current: start })
+        let last_tick = Tick::default();
+        Ok(Self { maze, engine, run, last_tick, tilt: Tilt::LEVEL, previous: start, current: start })
     }
 
     pub(crate) fn maze(&self) -> &Maze {
         &self.maze
+    }
+
+    /// What the engine said of the last tick.
+    pub(crate) fn last_tick(&self) -> &Tick {
+        &self.last_tick
     }
 
     pub(crate) fn phase(&self) -> Phase {
@@ -84,6 +99,12 @@ impl Game {
 
     pub(crate) fn n_ticks(&self) -> u64 {
         self.run.n_ticks()
+    }
+
+    /// Radius, restitution, rolling factor and tick length: what a recording keeps of the engine.
+    pub(crate) fn constants(&self) -> [f64; 4] {
+        let spec = self.engine.spec();
+        [spec.radius.units(), spec.restitution, spec.rolling, self.engine.tick_s()]
     }
 
     pub(crate) fn tick_s(&self) -> f64 {
@@ -130,6 +151,7 @@ impl Game {
         let way = position - self.previous.position;
         self.current.position = position;
         self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        self.last_tick = tick;
         Ok(self.run.observe(tilt, [self.previous.position, position], &tick).collect())
     }
 

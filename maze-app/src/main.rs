@@ -44,6 +44,10 @@ enum Command {
     Info(command::info::Arguments),
     /// Make a random maze and write it as an OBJ file.
     Generate(command::generate::Arguments),
+    /// Play to the goal without a window.
+    Autopilot(command::autopilot::Arguments),
+    /// Play a recording again and say whether it ends in the same state.
+    Replay(command::replay::Arguments),
     /// Draw one picture of a maze, without a window.
     Render(command::render::Arguments),
 }
@@ -57,6 +61,8 @@ fn main() -> ExitCode {
         Command::Play(arguments) => command::play::run(arguments),
         Command::Info(arguments) => command::info::run(&arguments),
         Command::Generate(arguments) => command::generate::run(&arguments),
+        Command::Autopilot(arguments) => command::autopilot::run(&arguments),
+        Command::Replay(arguments) => command::replay::run(&arguments),
         Command::Render(arguments) => command::render::run(&arguments),
     };
     finish(result)

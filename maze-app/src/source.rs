@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use clap::Args;
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude, import, layout};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// How to read a maze file.
@@ -18,7 +18,33 @@ pub(crate) struct ReadArguments {
     up: Option<UpAxis>,
 }
 
+/// Which maze: a file, or a seed.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct MazeArguments {
+    /// A maze (.obj); without one, a random maze
+    #[arg(conflicts_with_all = ["random", "seed", "size"])]
+    file: Option<PathBuf>,
+    #[command(flatten)]
+    read: ReadArguments,
+    /// A random maze (what happens anyway without a FILE)
+    #[arg(long)]
+    random: bool,
+    /// The same seed gives the same maze [default: a new one]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Cells of a random maze
+    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
+    size: GridSize,
+}
+
 impl ReadArguments {
+    /// As on the command line.
+    fn words(&self) -> Vec<String> {
+        let radius = self.ball_radius.map(|radius| format!("--ball-radius={}", radius.units()));
+        let up = self.up.map(|axis| format!("--up={}", axis.name()));
+        [radius, up].into_iter().flatten().collect()
+    }
+
     fn options(&self) -> AssembleOptions {
         AssembleOptions { up_axis: self.up, ball_radius: self.ball_radius }
     }
@@ -38,6 +64,77 @@ impl ReadArguments {
         let layout =
             layout::recursive_backtracker(size.width, size.height, seed).map_err(Failure::bad_input)?;
         Maze::from_polygons(&extrude::extrude(&layout), &self.options()).map_err(Failure::bad_input)
+    }
+}
+
+/// What is played, and how to get the next maze of the same kind.
+pub(crate) struct Source {
+    read: ReadArguments,
+    kind: Kind,
+}
+
+enum Kind {
+    File(PathBuf),
+    Random { size: GridSize, seed: u64 },
+}
+
+impl Source {
+    /// Chooses a seed where none was given.
+    pub(crate) fn new(arguments: &MazeArguments) -> Self {
+        let kind = match &arguments.file {
+            Some(path) => Kind::File(path.clone()),
+            None => Kind::Random { size: arguments.size, seed: arguments.seed.unwrap_or_else(fresh_seed) },
+        };
+        Self { read: arguments.read.clone(), kind }
+    }
+
+    /// The words, one a line, that give this maze again on the command line.
+    pub(crate) fn words(&self) -> Result<String, Failure> {
+        let mut words = self.read.words();
+        match &self.kind {
+            Kind::Random { size, seed } => {
+                words.extend([format!("--size={}x{}", size.width, size.height), format!("--seed={seed}")]);
+            }
+            Kind::File(path) => {
+                let name = path.to_str().filter(|name| !name.contains('\n'));
+                let name = name.ok_or_else(|| {
+                    Failure::in_file(path, "a recording can only name a file in UTF-8 and on one line")
+                })?;
+                words.extend(["--".to_owned(), name.to_owned()]);
+            }
+        }
+        Ok(words.join("\n"))
+    }
+
+    pub(crate) fn load(&self) -> Result<Maze, Failure> {
+        match &self.kind {
+            Kind::File(path) => self.read.load(path),
+            Kind::Random { size, seed } => self.read.generate(*size, *seed),
+        }
+    }
+
+    /// What the screen calls it.
+    pub(crate) fn title(&self) -> String {
+        match &self.kind {
+            Kind::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Kind::Random { size, seed } => format!("{}x{}  seed {seed}", size.width, size.height),
+        }
+    }
+
+    /// Moves on to another random maze; false for a file.
+    pub(crate) fn next(&mut self) -> bool {
+        match &mut self.kind {
+            Kind::File(_) => false,
+            Kind::Random { seed, .. } => {
+                *seed = fresh_seed();
+                true
+            }
+        }
+    }
+
+    /// Whether there is another maze of the same kind.
+    pub(crate) fn has_next(&self) -> bool {
+        matches!(self.kind, Kind::Random { .. })
     }
 }
 

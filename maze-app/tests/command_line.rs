@@ -113,9 +113,69 @@ fn the_default_maze_is_what_its_first_line_says() {
     drop(directory);
 }
 
+/// Runs, expects success, and reads the JSON object that it prints.
+fn json(arguments: &[&str]) -> serde_json::Value {
+    let output = maze_app(arguments).output().unwrap();
+    assert!(output.status.success(), "{arguments:?}: {output:?}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_autopilot_reaches_the_goal_and_its_recording_ends_in_the_same_state() {
+    let directory = tempfile::tempdir().unwrap();
+    let record = directory.path().join("run.maze").display().to_string();
+    for engine in ["continuous", "published"] {
+        let run = json(&[
+            "autopilot",
+            "--seed",
+            "7",
+            "--size",
+            "8x6",
+            "--engine",
+            engine,
+            "--record",
+            &record,
+            "--json",
+        ]);
+        assert_eq!(run["finished"], true);
+        let replay = json(&["replay", &record, "--json"]);
+        assert_eq!((&replay["same"], &replay["phase"]), (&true.into(), &"finished".into()));
+        assert_eq!(replay["ticks"], run["ticks"]);
+    }
+    let run = json(&["autopilot", DEFAULT_MAZE, "--ball-radius=0.3", "--record", &record, "--json"]);
+    assert_eq!(run["finished"], true);
+    assert_eq!(json(&["replay", &record, "--json"])["same"], true);
+}
+
+#[test]
+fn a_recording_of_another_maze_or_a_cut_one_is_refused_and_a_changed_one_ends_elsewhere() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).display().to_string();
+    let (maze, record, cut) = (path("maze.obj"), path("run.maze"), path("cut.maze"));
+    let generate = |seed: &str| {
+        let arguments = ["generate", "--size", "5x4", "--seed", seed, "--out", &maze];
+        assert!(maze_app(&arguments).output().unwrap().status.success());
+    };
+    generate("1");
+    assert!(maze_app(&["autopilot", &maze, "--record", &record]).output().unwrap().status.success());
+    let bytes = std::fs::read(&record).unwrap();
+    std::fs::write(&cut, &bytes[..bytes.len() - 20]).unwrap();
+    refused(&mut maze_app(&["replay", &cut]), "the recording is cut off after");
+    refused(&mut maze_app(&["replay", &maze]), "not a recording of a run");
+    let mut changed = bytes;
+    let tilt_of_an_early_tick = changed.len() - 8 - 4 * 40;
+    changed[tilt_of_an_early_tick] ^= 0x55;
+    std::fs::write(&cut, &changed).unwrap();
+    let output = maze_app(&["replay", &cut]).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert!(stdout(&output).starts_with("same final state  false"));
+    generate("2");
+    refused(&mut maze_app(&["replay", &record]), "recorded on another maze");
+}
+
 #[test]
 fn help_is_complete_and_has_examples() {
-    for command in ["play", "info", "generate", "render"] {
+    for command in ["play", "info", "generate", "render", "autopilot", "replay"] {
         let output = maze_app(&[command, "--help"]).output().unwrap();
         assert!(output.status.success());
         let text = stdout(&output);

@@ -51,6 +51,7 @@ mod maze;
 mod plane;
 mod polygons;
 mod reach;
+pub mod replay;
 mod roots;
 mod rules;
 mod section;

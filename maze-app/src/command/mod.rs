@@ -1,6 +1,8 @@
 //! One file per subcommand.
 
+pub(crate) mod autopilot;
 pub(crate) mod generate;
 pub(crate) mod info;
 pub(crate) mod play;
 pub(crate) mod render;
+pub(crate) mod replay;

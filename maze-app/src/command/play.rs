@@ -4,9 +4,8 @@ use crate::app::{self, App};
 use crate::failure::Failure;
 use crate::files;
 use crate::game::EngineKind;
-use crate::source::{GridSize, ReadArguments, fresh_seed, parse_grid_size};
+use crate::source::{MazeArguments, Source};
 use clap::Args;
-use maze_core::Maze;
 use maze_render::TextureSet;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -16,20 +15,8 @@ use std::time::Duration;
     after_help = "Examples:\n  maze-app play\n  maze-app play --seed 7 --size 20x12\n  maze-app play my_maze.obj"
 )]
 pub(crate) struct Arguments {
-    /// A maze (.obj); without one, a random maze
-    #[arg(conflicts_with_all = ["random", "seed", "size"])]
-    file: Option<PathBuf>,
     #[command(flatten)]
-    read: ReadArguments,
-    /// A random maze (what happens anyway without a FILE)
-    #[arg(long)]
-    random: bool,
-    /// The same seed gives the same maze [default: a new one]
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// Cells of a random maze
-    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
-    size: GridSize,
+    maze: MazeArguments,
     /// How the ball's motion is computed
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
@@ -58,50 +45,6 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     duration.ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
 }
 
-/// What is played, and how to get the next maze of the same kind.
-pub(crate) struct Source {
-    read: ReadArguments,
-    kind: Kind,
-}
-
-enum Kind {
-    File(PathBuf),
-    Random { size: GridSize, seed: u64 },
-}
-
-impl Source {
-    pub(crate) fn load(&self) -> Result<Maze, Failure> {
-        match &self.kind {
-            Kind::File(path) => self.read.load(path),
-            Kind::Random { size, seed } => self.read.generate(*size, *seed),
-        }
-    }
-
-    /// What the screen calls it.
-    pub(crate) fn title(&self) -> String {
-        match &self.kind {
-            Kind::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-            Kind::Random { size, seed } => format!("{}x{}  seed {seed}", size.width, size.height),
-        }
-    }
-
-    /// Moves on to another random maze; false for a file.
-    pub(crate) fn next(&mut self) -> bool {
-        match &mut self.kind {
-            Kind::File(_) => false,
-            Kind::Random { seed, .. } => {
-                *seed = fresh_seed();
-                true
-            }
-        }
-    }
-
-    /// Whether there is another maze of the same kind.
-    pub(crate) fn has_next(&self) -> bool {
-        matches!(self.kind, Kind::Random { .. })
-    }
-}
-
 /// What the window needs, all checked before it opens.
 pub(crate) struct Setup {
     pub(crate) source: Source,
@@ -113,11 +56,7 @@ pub(crate) struct Setup {
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
-    let kind = match arguments.file {
-        Some(path) => Kind::File(path),
-        None => Kind::Random { size: arguments.size, seed: arguments.seed.unwrap_or_else(fresh_seed) },
-    };
-    let source = Source { read: arguments.read, kind };
+    let source = Source::new(&arguments.maze);
     let maze = source.load()?;
     let textures = files::textures(arguments.textures.as_deref())?;
     let event_loop = app::event_loop()?;

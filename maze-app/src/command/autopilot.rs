@@ -1,0 +1,85 @@
+//! `maze-app autopilot`: plays to the goal without a window.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::game::{EngineKind, Game};
+use crate::source::{MazeArguments, Source};
+use clap::Args;
+use maze_core::replay::{Recording, maze_hash, state_hash};
+use maze_core::{Autopilot, Event, Phase};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// After so many ticks (ten hours of play) the autopilot gives up.
+const MAX_TICKS: usize = 1_200_000;
+
+/// The autopilot tilts no further than a player may.
+const MAX_TILT_DEGREES: f64 = 20.0;
+
+#[derive(Args)]
+#[command(after_help = "Examples:\n  maze-app autopilot my_maze.obj\n  \
+                        maze-app autopilot --random --seed 7 --size 20x20 --record run.maze\n\n\
+                        Exit status 1 when the goal was not reached.")]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    maze: MazeArguments,
+    /// How the ball's motion is computed
+    #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
+    engine: EngineKind,
+    /// Write the run, for `maze-app replay`
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// One JSON object instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let source = Source::new(&arguments.maze);
+    let mut game = Game::new(source.load()?, arguments.engine)?;
+    let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
+    let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
+        return Err(Failure::not_held(format!("{}: no way leads from start to goal", source.title())));
+    };
+    let (mut tilts, mut n_bounces) = (Vec::new(), 0_u64);
+    let mut deepest_penetration = 0.0_f64;
+    while game.phase() != Phase::Finished && tilts.len() < MAX_TICKS {
+        let tilt = autopilot.tilt(game.ball());
+        let events = game.tick(tilt)?;
+        n_bounces += events.iter().map(|event| u64::from(matches!(event, Event::Bounced(_)))).sum::<u64>();
+        deepest_penetration = deepest_penetration.max(game.last_tick().deepest_penetration);
+        tilts.push(tilt);
+    }
+    let (finished, n_ticks) = (game.phase() == Phase::Finished, tilts.len());
+    if let Some(path) = &arguments.record {
+        let recording = Recording {
+            source: source.words()?,
+            maze_hash: maze_hash(game.maze()),
+            engine: arguments.engine.name().to_owned(),
+            constants: game.constants(),
+            tilts,
+            final_hash: state_hash(game.ball()),
+        };
+        files::write_whole(path, &recording.to_bytes())?;
+    }
+    files::print(&match arguments.json {
+        true => format!(
+            "{}\n",
+            json!({
+                "finished": finished,
+                "ticks": n_ticks,
+                "bounces": n_bounces,
+                "deepest_penetration": deepest_penetration,
+            })
+        ),
+        false => format!(
+            "finished             {finished}\nticks                {n_ticks}\nbounces              {n_bounces}\n\
+             deepest penetration  {deepest_penetration}\n"
+        ),
+    })?;
+    if finished {
+        Ok(())
+    } else {
+        Err(Failure::not_held(format!("the goal was not reached in {n_ticks} ticks")))
+    }
+}

@@ -1,0 +1,65 @@
+//! `maze-app replay`: a recording played again, and whether it ends in the same state.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::game::{EngineKind, Game};
+use crate::source::{MazeArguments, Source};
+use clap::{Args, Parser, ValueEnum};
+use maze_core::replay::{Recording, maze_hash, state_hash};
+use serde_json::json;
+use std::path::PathBuf;
+
+#[derive(Args)]
+#[command(after_help = "Example:\n  maze-app replay run.maze\n\n\
+                        A maze file is looked for where it was recorded, from the same directory.\n\
+                        Exit status 1 when the run ends in another state.")]
+pub(crate) struct Arguments {
+    /// A recording (`maze-app autopilot --record`)
+    file: PathBuf,
+    /// One JSON object instead of text
+    #[arg(long)]
+    json: bool,
+}
+
+/// A recording's source is the words that `play` takes.
+#[derive(Parser)]
+#[command(no_binary_name = true)]
+struct SourceWords {
+    #[command(flatten)]
+    maze: MazeArguments,
+}
+
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let in_file = |reason: String| Failure::in_file(&arguments.file, reason);
+    let recording =
+        Recording::from_bytes(&files::read(&arguments.file)?).map_err(|error| in_file(error.to_string()))?;
+    let engine = EngineKind::from_str(&recording.engine, false).map_err(|_| {
+        in_file(format!("recorded with an engine `{}`, which there is not", recording.engine))
+    })?;
+    let words = SourceWords::try_parse_from(recording.source.split('\n'))
+        .map_err(|_| in_file(format!("the recording's source is damaged: {}", recording.source)))?;
+    let source = Source::new(&words.maze);
+    let mut game = Game::new(source.load()?, engine)?;
+    if maze_hash(game.maze()) != recording.maze_hash {
+        return Err(in_file(format!("recorded on another maze than {} is now", source.title())));
+    }
+    if game.constants() != recording.constants {
+        return Err(in_file("recorded with another ball or tick than this program's".to_owned()));
+    }
+    for tilt in &recording.tilts {
+        game.tick(*tilt)?;
+    }
+    let same = state_hash(game.ball()) == recording.final_hash;
+    let (n_ticks, phase) = (recording.tilts.len(), game.phase().name());
+    files::print(&match arguments.json {
+        true => format!("{}\n", json!({ "same": same, "ticks": n_ticks, "phase": phase })),
+        false => {
+            format!("same final state  {same}\nticks             {n_ticks}\nphase             {phase}\n")
+        }
+    })?;
+    if same {
+        Ok(())
+    } else {
+        Err(Failure::not_held(format!("the run ended in another state after {n_ticks} ticks")))
+    }
+}
