@@ -58,6 +58,7 @@ mod section;
 mod slice;
 mod sorted_planes;
 pub mod surface;
+mod winding;
 
 pub use assemble::{AssembleError, AssembleOptions};
 pub use autopilot::Autopilot;

@@ -7,13 +7,11 @@
 )]
 #![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use trigonometry")]
 
-use maze_core::impact::{self, Path, Touched};
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, Tick,
     extrude, layout,
 };
 use nalgebra::Vector2;
-use proptest::prelude::*;
 use std::sync::Arc;
 
 const E: f64 = BallSpec::RESTITUTION;
@@ -406,131 +404,4 @@ fn a_mirrored_maze_gives_the_mirrored_path() {
         assert_eq!(flip(one.ball().position), other.ball().position, "tick {n}");
         assert_eq!(flip(one.ball().velocity), other.ball().velocity, "tick {n}");
     }
-}
-
-/// Cells along a side of a random ground plan.
-const N: usize = 8;
-
-/// A random ground plan: which cells are solid, and how wide they are.
-#[derive(Clone, Debug)]
-struct Plan {
-    solid: Vec<bool>,
-    pitch: f64,
-}
-
-impl Plan {
-    /// Cells count from 1; what lies around is free.
-    fn is_solid(&self, i: usize, j: usize) -> bool {
-        (1..=N).contains(&i) && (1..=N).contains(&j) && self.solid[(j - 1) * N + i - 1]
-    }
-
-    fn at(&self, k: usize) -> f64 {
-        (k as f64 - N as f64 / 2.0 - 1.0) * self.pitch
-    }
-
-    fn is_inside(&self, position: Vector2<f64>) -> bool {
-        let cell = |value: f64| (value / self.pitch + N as f64 / 2.0 + 1.0).floor().max(0.0) as usize;
-        self.is_solid(cell(position.x), cell(position.y))
-    }
-
-    /// As an importer makes them.
-    fn faces(&self) -> Vec<Plane> {
-        let mut faces = Vec::new();
-        for across in 1..=N {
-            for step in 0..=N {
-                let [offset, start, end] = [step + 1, across, across + 1].map(|k| self.at(k));
-                match (self.is_solid(step, across), self.is_solid(step + 1, across)) {
-                    (true, false) => faces.push(plane(Facing::PlusX, offset, start, end)),
-                    (false, true) => faces.push(plane(Facing::MinusX, offset, start, end)),
-                    _ => {}
-                }
-                match (self.is_solid(across, step), self.is_solid(across, step + 1)) {
-                    (true, false) => faces.push(plane(Facing::PlusY, offset, start, end)),
-                    (false, true) => faces.push(plane(Facing::MinusY, offset, start, end)),
-                    _ => {}
-                }
-            }
-        }
-        faces
-    }
-}
-
-fn any_plan() -> impl Strategy<Value = Plan> {
-    (prop::collection::vec(prop::bool::weighted(0.3), N * N), 0.3..2.0_f64)
-        .prop_map(|(solid, pitch)| Plan { solid, pitch })
-}
-
-fn any_path() -> impl Strategy<Value = Path> {
-    let vector = |most: f64| (-most..most, -most..most).prop_map(|(x, y)| Vector2::new(x, y));
-    let still = prop_oneof![Just(Vector2::zeros()), vector(10.0)];
-    (vector(5.0), prop_oneof![vector(2.0), vector(300.0), still.clone()], still)
-        .prop_map(|(position, velocity, acceleration)| Path { position, velocity, acceleration })
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, max_global_rejects: 1_000_000, failure_persistence: None, ..ProptestConfig::default() })]
-
-    /// The guided search finds what the scan of every plane finds, to the bit.
-    #[test]
-    fn guided_search_agrees_with_scan(
-        plan in any_plan(),
-        path in any_path(),
-        radius in 0.05..1.0_f64,
-        until_s in prop_oneof![Just(0.03), 0.001..1.0_f64],
-    ) {
-        let sorted = SortedPlanes::new(plan.faces()).unwrap();
-        // A path that starts inside a wall has no first touch from outside.
-        prop_assume!(!plan.is_inside(path.position) && penetration(&sorted, path.position, radius) <= 0.0);
-        prop_assert_eq!(
-            impact::first(&sorted, &path, radius, until_s, None),
-            impact::first_scan(&sorted, &path, radius, until_s, None)
-        );
-    }
-
-    /// At the time of a corner's touch the distance is the radius, and before it was more.
-    #[test]
-    fn corner_touch_is_at_the_radius_and_the_first(path in any_path(), radius in 0.05..1.0_f64) {
-        let start = path.position.norm();
-        prop_assume!(radius + 1.0e-6 < start);
-        if let Some(time_s) = impact::corner(&path, radius, Vector2::zeros(), 1.0) {
-            let scale = 1.0 + path.velocity.norm() + path.acceleration.norm();
-            prop_assert!((path.at(time_s).norm() - radius).abs() < 1.0e-13 * scale * scale, "{}", path.at(time_s).norm() - radius);
-            for part in 1..200_u32 {
-                let earlier = path.at(time_s * f64::from(part) / 200.0).norm();
-                prop_assert!(radius - 1.0e-9 < earlier);
-            }
-        } else {
-            for part in 0..=2000_u32 {
-                let distance = path.at(f64::from(part) / 2000.0).norm();
-                prop_assert!(radius - 1.0e-7 < distance, "{} at {}", distance, part);
-            }
-        }
-    }
-}
-
-#[test]
-fn faces_and_corners_of_a_scene_are_told_apart() {
-    let planes = SortedPlanes::new(block([0.0, 1.0], [0.0, 1.0])).unwrap();
-    let towards = |y: f64| Path {
-        position: Vector2::new(-2.0, y),
-        velocity: Vector2::new(1.0, 0.0),
-        acceleration: Vector2::zeros(),
-    };
-    let hit = |y| impact::first(&planes, &towards(y), 0.25, 9.0, None).map(|impact| impact.touched);
-    assert!(matches!(hit(0.5), Some(Touched::Face(face)) if face.facing == Facing::MinusX));
-    assert_eq!(hit(1.1), Some(Touched::Corner(Vector2::new(0.0, 1.0))));
-    assert_eq!(hit(1.3), None);
-}
-#[test]
-fn a_ball_that_stands_on_a_corner_and_is_pressed_onto_it_does_not_sink_in() {
-    // Found by the soak after 10^8 ticks: the distance at the start is the radius plus half a rounding, its slope nothing, and
-    // its farthest point, a rounding later, is the radius less half of one.
-    let path = Path {
-        position: Vector2::new(3.903_872_500_213_596, 2.938_359_983_125_049),
-        velocity: Vector2::new(16.559_809_472_969_576, -7.701_637_672_871_311),
-        acceleration: Vector2::new(-706.269_780_920_510_7, -451.637_454_820_102_96),
-    };
-    let point = Vector2::new(3.699_999_999_999_999_3, 2.5);
-    let time_s = impact::corner(&path, 0.483_449_553_882_032_6, point, 0.03).unwrap();
-    assert!(time_s < 1.0e-7, "{time_s}");
 }

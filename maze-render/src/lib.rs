@@ -11,8 +11,12 @@
 //! * Windows and pictures share every pass: [`Renderer::draw`] takes any texture view of the format it was made for.
 //!
 //! ```no_run
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let (textures, mesh, scene): (maze_render::TextureSet, maze_core::surface::SurfaceMesh, maze_render::Scene) = todo!();
+//! # use maze_core::surface::SurfaceMesh;
+//! # fn draw(
+//! #     textures: maze_render::TextureSet,
+//! #     mesh: SurfaceMesh,
+//! #     scene: maze_render::Scene,
+//! # ) -> Result<(), Box<dyn std::error::Error>> {
 //! let gpu = maze_render::Gpu::offscreen()?;
 //! let mut renderer = maze_render::Renderer::new(&gpu, maze_render::CAPTURE_FORMAT, &textures);
 //! renderer.set_maze(&gpu, &mesh)?;
