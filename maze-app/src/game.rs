@@ -148,9 +148,7 @@ impl Game {
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
         let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
         let position = self.engine.ball().position;
-        let way = position - self.previous.position;
-        self.current.position = position;
-        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        self.roll_to(position);
         self.last_tick = tick;
         Ok(self.run.observe(tilt, [self.previous.position, position], &tick).collect())
     }
@@ -158,9 +156,15 @@ impl Game {
     /// The ball comes to rest in the middle of the goal.
     fn settle(&mut self) -> Result<(), Failure> {
         let way = (self.maze.goal - self.previous.position) * SETTLE_PART;
-        self.current.position = self.previous.position + way;
-        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        self.roll_to(self.previous.position + way);
         self.engine.place(Ball::at(self.current.position)).map_err(Failure::bad_input)
+    }
+
+    /// Shows the ball there, its pattern turned by the way from where it was a tick ago.
+    fn roll_to(&mut self, position: Vector2<f64>) {
+        let way = position - self.previous.position;
+        self.current.position = position;
+        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
     }
 
     /// Between the last two ticks, `alpha` of the way. A board in the player's hand is shown where the hand is.

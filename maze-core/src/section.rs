@@ -155,14 +155,9 @@ impl Section {
     fn enters_more_than_leaves(&self, edges: &[Edge], used: &[Vec<Option<usize>>; 2]) -> i64 {
         let all = [0, 1].into_iter().flat_map(|axis| runs(edges, used, axis));
         let of_run = |run: FaceRun| {
-            let into_solid = move |across: &usize| {
-                let is_solid = |step: usize| {
-                    step <= self.n_cells()[run.axis] && step != 0 && {
-                        self.is_solid_framed(run.axis, step, *across)
-                    }
-                };
-                !is_solid(run.step) && is_solid(run.step + 1)
-            };
+            let is_solid = move |step, across| self.at_step(run.axis, step, across).unwrap_or(false);
+            let into_solid =
+                move |across: &usize| !is_solid(run.step, *across) && is_solid(run.step + 1, *across);
             i64::from(run.change.signum()) * run.across.filter(into_solid).map(|_| 1).sum::<i64>()
         };
         all.map(of_run).sum()
@@ -177,10 +172,7 @@ impl Section {
                 let extent = alongs[across + 1] - alongs[across];
                 length += extent;
                 // The frame is no wall here: beyond it all is free.
-                let n_steps = self.n_cells()[run.axis];
-                let is_free = |step: usize| {
-                    step == 0 || n_steps < step || !self.is_solid_framed(run.axis, step, across)
-                };
+                let is_free = |step: usize| !self.at_step(run.axis, step, across).unwrap_or(false);
                 if is_free(run.step) && is_free(run.step + 1) {
                     sheets += extent;
                     let (i, j) = if run.axis == 0 { (run.step, across) } else { (across, run.step) };
@@ -219,11 +211,13 @@ impl Section {
 
     /// What lies at cell (i, j) of the plan framed by one ring of solid cells, so that no ball leaves the board.
     fn is_solid_framed(&self, axis: usize, step: usize, across: usize) -> bool {
-        let n_steps = self.n_cells()[axis];
-        if step == 0 || n_steps < step {
-            return true;
-        }
-        if axis == 0 { self.is_solid(step - 1, across) } else { self.is_solid(across, step - 1) }
+        self.at_step(axis, step, across).unwrap_or(true)
+    }
+
+    /// Whether the cell before the `step`-th coordinate along an axis is solid; `None` beyond the plan.
+    fn at_step(&self, axis: usize, step: usize, across: usize) -> Option<bool> {
+        let cell = step.checked_sub(1).filter(|cell| *cell < self.n_cells()[axis])?;
+        Some(if axis == 0 { self.is_solid(cell, across) } else { self.is_solid(across, cell) })
     }
 
     /// Every face between a solid and a free cell, in pieces one cell long; the frame included.

@@ -143,7 +143,7 @@ impl Continuous {
         self.ball.position[axis] = face.offset + sign * self.radius();
         let speed = -self.ball.velocity[axis] * sign;
         let rebound = self.spec.restitution * speed;
-        self.note_hit(speed, tick);
+        tick.note_hit(speed);
         if is_rest(rebound, acceleration[axis] * sign) {
             self.ball.velocity[axis] = 0.0;
             self.support.faces[axis] = Some(face);
@@ -158,7 +158,7 @@ impl Continuous {
         self.ball.position = point + normal * self.radius();
         let speed = -self.ball.velocity.dot(&normal);
         let rebound = self.spec.restitution * speed;
-        self.note_hit(speed, tick);
+        tick.note_hit(speed);
         tick.n_corner_hits += 1;
         self.ball.velocity += normal * (speed + rebound);
         // A face that carried the ball either gets it back at once, or has lost it.
@@ -167,13 +167,6 @@ impl Continuous {
             self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
             self.support.corner = Pivot::at(&self.planes, point);
             tick.n_rests += 1;
-        }
-    }
-
-    fn note_hit(&self, speed: f64, tick: &mut Tick) {
-        tick.n_hits += 1;
-        if tick.hardest_hit_speed < speed {
-            tick.hardest_hit_speed = speed;
         }
     }
 
@@ -232,9 +225,7 @@ impl Continuous {
             let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
             self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
             tick.recovered = true;
-            if tick.deepest_penetration < contact.penetration {
-                tick.deepest_penetration = contact.penetration;
-            }
+            tick.note_penetration(contact.penetration);
         }
     }
 }

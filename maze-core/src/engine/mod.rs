@@ -33,6 +33,23 @@ pub struct Tick {
     pub dropped_s: f64,
 }
 
+impl Tick {
+    /// Counts a hit with this normal speed (units/s).
+    fn note_hit(&mut self, speed: f64) {
+        self.n_hits += 1;
+        if self.hardest_hit_speed < speed {
+            self.hardest_hit_speed = speed;
+        }
+    }
+
+    /// Remembers a penetration (units) when it is the deepest.
+    fn note_penetration(&mut self, depth: f64) {
+        if self.deepest_penetration < depth {
+            self.deepest_penetration = depth;
+        }
+    }
+}
+
 /// A way to compute the ball's motion.
 ///
 /// The same inputs give the same bits on every platform.

@@ -56,13 +56,8 @@ impl Published {
             let axis = contact.plane.facing.axis();
             let normal_speed = self.ball.velocity[axis].abs();
             self.ball = contact.respond(self.ball, &self.spec);
-            tick.n_hits += 1;
-            if tick.hardest_hit_speed < normal_speed {
-                tick.hardest_hit_speed = normal_speed;
-            }
-            if tick.deepest_penetration < contact.penetration {
-                tick.deepest_penetration = contact.penetration;
-            }
+            tick.note_hit(normal_speed);
+            tick.note_penetration(contact.penetration);
         }
         tick.n_unresolved += u32::from(self.next_contact().is_some());
     }
