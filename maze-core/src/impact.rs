@@ -5,7 +5,7 @@
 
 use crate::plane::{Facing, Plane};
 use crate::roots::{bracketed_root, falls_through_zero, quadratic_roots};
-use crate::sorted_planes::SortedPlanes;
+use crate::sorted_planes::{Face, SortedPlanes, WIDENED};
 use nalgebra::Vector2;
 
 /// At the start a corner is touched only when approached faster than this part of the speed: what is slower is the
@@ -19,9 +19,6 @@ pub const TOUCH: f64 = 1.0e-10;
 /// A path that reaches less than half of this (units) behind a corner's touch only grazes it. A graze has a double root,
 /// which rounding (1e-14 at 100 units) would place anywhere within 1e-7 s or nowhere.
 const GRAZE_EXCESS: f64 = 1.0e-12;
-
-/// Searches look this much farther than the radius, so that no rounding (1e-12 on the largest boards) hides a touch.
-const REACH: f64 = 1.0 + 1.0e-6;
 
 /// Motion under constant acceleration: position + velocity t + acceleration t² / 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +62,12 @@ impl Path {
 
     /// Least and greatest coordinate along one axis between two times.
     fn range(&self, axis: usize, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
-        let at = |time_s: f64| {
-            self.position[axis] + (self.velocity[axis] + self.acceleration[axis] * (time_s / 2.0)) * time_s
-        };
+        let (speed, pull) = (self.velocity[axis], self.acceleration[axis]);
+        let at = |time_s: f64| self.position[axis] + (speed + pull * (time_s / 2.0)) * time_s;
         let ends = [at(from_s), at(to_s)];
         let [mut low, mut high] = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
-        let turn_s = -self.velocity[axis] / self.acceleration[axis];
-        if from_s < turn_s && turn_s < to_s {
-            let turn = at(turn_s);
+        if (speed + pull * from_s) * (speed + pull * to_s) < 0.0 {
+            let turn = at(-speed / pull);
             low = if turn < low { turn } else { low };
             high = if high < turn { turn } else { high };
         }
@@ -153,42 +148,48 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
 }
 
 /// The best impact so far: the earliest, and of equal times the one of the lowest rank.
-#[derive(Clone, Copy, Debug)]
-struct First {
+struct First<'a> {
+    path: &'a Path,
+    radius: f64,
     horizon_s: f64,
     until_s: f64,
+    /// Least and greatest coordinate of the centre along both axes until then.
+    ranges: [[f64; 2]; 2],
     impact: Option<Impact>,
 }
 
-impl First {
-    fn within(horizon_s: f64) -> Self {
-        Self { horizon_s, until_s: horizon_s, impact: None }
+impl<'a> First<'a> {
+    fn new(path: &'a Path, radius: f64, until_s: f64) -> Self {
+        let ranges = [path.range(0, [0.0, until_s]), path.range(1, [0.0, until_s])];
+        Self { path, radius, horizon_s: until_s, until_s, ranges, impact: None }
     }
 
-    fn offer(&mut self, path: &Path, radius: f64, plane: &Plane, ignored: Option<Vector2<f64>>) {
-        if let Some(time_s) = face(path, radius, plane) {
-            self.keep(Impact { time_s, touched: Touched::Face(*plane) });
+    /// How far from the centre what is touched can be.
+    fn reach(&self) -> f64 {
+        self.radius * WIDENED
+    }
+
+    fn offer(&mut self, candidate: &Face, ignored: Option<Vector2<f64>>) {
+        if let Some(time_s) = face(self.path, self.radius, &candidate.plane) {
+            self.keep(Impact { time_s, touched: Touched::Face(candidate.plane) });
         }
-        for along in [plane.start, plane.end] {
-            let mut point = Vector2::zeros();
-            point[plane.facing.axis()] = plane.offset;
-            point[1 - plane.facing.axis()] = along;
-            if ignored == Some(point) || self.is_beside(path, radius, point) {
+        for point in candidate.corners() {
+            if ignored == Some(point) || self.is_beside(point) {
                 continue;
             }
             // The root is sought within the whole time, not within what is left of it: its bits must not depend on what
             // was found before.
-            if let Some(time_s) = corner(path, radius, point, self.horizon_s) {
+            if let Some(time_s) = corner(self.path, self.radius, point, self.horizon_s) {
                 self.keep(Impact { time_s, touched: Touched::Corner(point) });
             }
         }
     }
 
     /// Whether a point stays out of reach until the best impact so far: the usual case, told without a root.
-    fn is_beside(&self, path: &Path, radius: f64, point: Vector2<f64>) -> bool {
-        let reach = radius * REACH;
+    fn is_beside(&self, point: Vector2<f64>) -> bool {
+        let reach = self.reach();
         [0, 1].into_iter().any(|axis| {
-            let [low, high] = path.range(axis, [0.0, self.until_s]);
+            let [low, high] = self.ranges[axis];
             point[axis] + reach < low || high < point[axis] - reach
         })
     }
@@ -199,9 +200,24 @@ impl First {
             Some(known) => rank(&impact) < rank(&known),
         };
         if is_better {
-            self.until_s = impact.time_s;
-            self.impact = Some(impact);
+            let shorter = Self::new(self.path, self.radius, impact.time_s);
+            *self = Self { horizon_s: self.horizon_s, impact: Some(impact), ..shorter };
         }
+    }
+
+    /// Part of the other coordinate's range in which the circle is near a row's offset, widened by its reach.
+    ///
+    /// On a short way the whole range will do.
+    fn window(&self, axis: usize, offset: f64) -> [f64; 2] {
+        let reach = self.reach();
+        let [low, high] = self.ranges[1 - axis];
+        let [low, high] = if high - low < reach {
+            [low, high]
+        } else {
+            let near = while_near(self.path, axis, offset, self.radius, self.until_s);
+            self.path.range(1 - axis, near)
+        };
+        [low - reach, high + reach]
     }
 }
 
@@ -213,19 +229,10 @@ fn rank(impact: &Impact) -> (f64, u8, f64, f64) {
     }
 }
 
-/// The faces that a path can run into within a time: those that oppose its velocity at the start or at the end.
-fn opposed(path: &Path, until_s: f64) -> impl Iterator<Item = Facing> {
-    let (start, end) = (path.velocity, path.velocity_at(until_s));
-    Facing::ALL.into_iter().filter(move |facing| {
-        let (axis, sign) = (facing.axis(), facing.sign());
-        start[axis] * sign < 0.0 || end[axis] * sign < 0.0
-    })
-}
-
 /// What a circle on a path touches first within `until_s`; a corner at exactly `ignored` is passed over.
 ///
-/// The search goes through the groups that oppose the motion, row by row in its direction, and in each row through the
-/// intervals that the circle passes while the row is within its reach. Needs finite numbers.
+/// The search goes through the groups that oppose the motion, the faster coordinate first, row by row in its direction, and
+/// in each row through the intervals that the circle passes while the row is within its reach. Needs finite numbers.
 pub fn first(
     planes: &SortedPlanes,
     path: &Path,
@@ -233,21 +240,32 @@ pub fn first(
     until_s: f64,
     ignored: Option<Vector2<f64>>,
 ) -> Option<Impact> {
-    let mut first = First::within(until_s);
-    for facing in opposed(path, until_s) {
-        let axis = facing.axis();
-        let reach = radius * REACH;
-        let [low, high] = path.range(axis, [0.0, first.until_s]);
+    let mut first = First::new(path, radius, until_s);
+    let (start, end) = (path.velocity, path.velocity_at(until_s));
+    // What the faster coordinate meets shortens the way for the other one.
+    let is_steep = start.x * start.x < start.y * start.y;
+    let facings = if is_steep { Facing::ALL_Y_FIRST } else { Facing::ALL };
+    for facing in facings {
+        let (axis, sign) = (facing.axis(), facing.sign());
+        let opposes = start[axis] * sign < 0.0 || end[axis] * sign < 0.0;
+        // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
+        if !opposes && !planes.has_free_ends() {
+            continue;
+        }
+        let reach = first.reach();
+        let [low, high] = first.ranges[axis];
         for row in planes.rows_within(facing, [low - reach, high + reach]) {
             // A touch found meanwhile shortens the time, and with it the way.
-            let [low, high] = path.range(axis, [0.0, first.until_s]);
-            if row.offset() + reach < low || high < row.offset() - reach {
+            let [low, high] = first.ranges[axis];
+            let (is_above, is_below) = (high < row.offset() - reach, row.offset() + reach < low);
+            if is_above || is_below {
+                if is_above == (sign < 0.0) {
+                    break; // and so are all that follow
+                }
                 continue;
             }
-            let window = while_near(path, axis, row.offset(), radius, first.until_s);
-            let [low, high] = path.range(1 - axis, window);
-            for plane in row.within([low - reach, high + reach]) {
-                first.offer(path, radius, &plane, ignored);
+            for candidate in row.within(first.window(axis, row.offset())) {
+                first.offer(&candidate, ignored);
             }
         }
     }
@@ -262,9 +280,9 @@ pub fn first_scan(
     until_s: f64,
     ignored: Option<Vector2<f64>>,
 ) -> Option<Impact> {
-    let mut first = First::within(until_s);
-    for plane in Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing)) {
-        first.offer(path, radius, &plane, ignored);
+    let mut first = First::new(path, radius, until_s);
+    for candidate in Facing::ALL.into_iter().flat_map(|facing| planes.faces(facing)) {
+        first.offer(&candidate, ignored);
     }
     first.impact
 }
@@ -281,7 +299,7 @@ fn while_near(path: &Path, axis: usize, offset: f64, radius: f64, until_s: f64) 
     let gap = (path.position[axis] - offset) * sign;
     let when = |gap: f64| falls_through_zero(gap, start * sign, path.acceleration[axis] * sign);
     // The far edge of the band is never reached when the motion ends before it.
-    let reach = radius * REACH;
+    let reach = radius * WIDENED;
     let from = if gap <= reach { 0.0 } else { when(gap - reach).unwrap_or(0.0) };
     let to = when(gap + reach).unwrap_or(until_s);
     [if from < until_s { from } else { until_s }, if to < until_s { to } else { until_s }]

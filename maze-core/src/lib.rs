@@ -71,4 +71,4 @@ pub use plane::{Facing, Plane, PlaneError};
 pub use polygons::{PolygonMesh, UpAxis};
 pub use rules::{Event, Phase, Run};
 pub use section::SectionError;
-pub use sorted_planes::SortedPlanes;
+pub use sorted_planes::{Clearance, SortedPlanes};

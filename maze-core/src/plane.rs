@@ -19,6 +19,9 @@ impl Facing {
     /// All four, in the order of the report.
     pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
 
+    /// All four, those across y first.
+    pub(crate) const ALL_Y_FIRST: [Self; 4] = [Self::PlusY, Self::MinusY, Self::PlusX, Self::MinusX];
+
     /// As on the command line: `+x`, `-x`, `+y`, `-y`.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,6 +53,14 @@ impl Facing {
         let mut normal = Vector2::zeros();
         normal[self.axis()] = self.sign();
         normal
+    }
+
+    /// The point at an offset along the normal's axis and a coordinate along the other.
+    pub fn point(self, offset: f64, along: f64) -> Vector2<f64> {
+        let mut point = Vector2::zeros();
+        point[self.axis()] = offset;
+        point[1 - self.axis()] = along;
+        point
     }
 
     /// The one or two facings that a ball of this velocity can run into: at least half of all planes are never looked at.
@@ -91,9 +102,23 @@ pub enum PlaneError {
         /// As given.
         plane: Plane,
     },
+    /// More than an index can tell apart.
+    #[error("more than 4294967295 planes of one facing")]
+    TooMany,
 }
 
 impl Plane {
+    /// How far `along` lies outside the extent; 0 within.
+    pub fn gap(&self, along: f64) -> f64 {
+        if along < self.start {
+            self.start - along
+        } else if self.end < along {
+            along - self.end
+        } else {
+            0.0
+        }
+    }
+
     /// Checks what [`crate::SortedPlanes`] relies on; `index` names the plane in the error.
     pub(crate) fn checked(self, index: usize) -> Result<Self, PlaneError> {
         if ![self.offset, self.start, self.end].iter().all(|value| value.is_finite()) {

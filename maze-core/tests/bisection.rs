@@ -26,6 +26,13 @@ fn plane() -> impl Strategy<Value = Plane> {
         .prop_map(|(facing, offset, start, extent)| Plane { facing, offset, start, end: start + extent })
 }
 
+/// A set of planes, as a list that can be compared.
+fn in_order(planes: impl Iterator<Item = Plane>) -> Vec<Plane> {
+    let mut planes: Vec<_> = planes.collect();
+    planes.sort_by(|a, b| (a.facing, a.offset, a.start).partial_cmp(&(b.facing, b.offset, b.start)).unwrap());
+    planes
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -35,13 +42,19 @@ proptest! {
         planes in prop::collection::vec(plane(), 0..60),
         queries in prop::collection::vec((facing(), coordinate(), coordinate(), 0.01..2.0_f64), 10),
     ) {
-        let sorted = SortedPlanes::new(planes).unwrap();
+        let directed = SortedPlanes::new(planes).unwrap();
+        let plain = directed.clone().without_directories();
         for (facing, x, y, radius) in queries {
             let centre = Vector2::new(x, y);
-            prop_assert_eq!(
-                sorted.first_overlap(facing, centre, radius),
-                sorted.first_overlap_scan(facing, centre, radius)
-            );
+            for sorted in [&directed, &plain] {
+                prop_assert_eq!(
+                    sorted.first_overlap(facing, centre, radius),
+                    sorted.first_overlap_scan(facing, centre, radius)
+                );
+                prop_assert_eq!(sorted.clearance(centre), sorted.clearance_scan(centre));
+                let near = in_order(sorted.planes_within(centre, radius));
+                prop_assert_eq!(near, in_order(sorted.planes_within_scan(centre, radius)));
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::{Engine, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact;
 use crate::impact::{self, Impact, Path, TOUCH, Touched};
-use crate::plane::{Facing, Plane};
+use crate::plane::Plane;
 use crate::roots::falls_through_zero;
 use crate::sorted_planes::SortedPlanes;
 use nalgebra::Vector2;
@@ -67,8 +67,11 @@ impl Continuous {
 
     /// Lets go of faces that the acceleration no longer presses the ball onto.
     fn release(&mut self, acceleration: Vector2<f64>) {
-        for face in &mut self.support.faces {
-            *face = face.filter(|face| acceleration[face.facing.axis()] * face.facing.sign() < 0.0);
+        for support in &mut self.support.faces {
+            let is_pressed = |face: &Plane| acceleration[face.facing.axis()] * face.facing.sign() < 0.0;
+            if !support.as_ref().is_none_or(is_pressed) {
+                *support = None;
+            }
         }
     }
 
@@ -83,20 +86,20 @@ impl Continuous {
 
     /// When and off which end the ball slides off a face that carries it.
     fn slides_off(&self, path: &Path) -> Option<(f64, Plane, Vector2<f64>)> {
-        let ends = self.support.faces.into_iter().flatten().flat_map(|face| {
+        let mut first: Option<(f64, Plane, Vector2<f64>)> = None;
+        for face in self.support.faces.iter().flatten() {
             let axis = 1 - face.facing.axis();
             let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
             let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
             let lower =
                 falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
-            [upper, lower].into_iter().flatten().map(move |(time_s, end)| {
-                let mut point = Vector2::zeros();
-                point[1 - axis] = face.offset;
-                point[axis] = end;
-                (time_s, face, point)
-            })
-        });
-        ends.min_by(|a, b| a.0.total_cmp(&b.0))
+            for (time_s, end) in [upper, lower].into_iter().flatten() {
+                if first.is_none_or(|(first_s, ..)| time_s < first_s) {
+                    first = Some((time_s, *face, face.facing.point(face.offset, end)));
+                }
+            }
+        }
+        first
     }
 
     /// Moves along a path; a face that carries the ball keeps it exactly at its radius.
@@ -208,13 +211,9 @@ impl Continuous {
         for _ in 0..MAX_RECOVERIES {
             let centre = self.ball.position;
             let radius = self.radius();
-            let deepest = Facing::ALL
-                .into_iter()
-                .flat_map(|facing| {
-                    let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
-                    let rows = self.planes.rows_within(facing, [across - radius, across + radius]);
-                    rows.flat_map(move |row| row.within([along - radius, along + radius]).collect::<Vec<_>>())
-                })
+            let deepest = self
+                .planes
+                .planes_within(centre, radius)
                 .filter_map(|plane| contact::find(centre, radius, &plane))
                 .filter(|contact| TOUCH < contact.penetration)
                 .max_by(|a, b| a.penetration.total_cmp(&b.penetration));

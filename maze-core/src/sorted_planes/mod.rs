@@ -1,7 +1,17 @@
 //! The report's data structure: wall faces in four groups, sorted, searched by bisection in the direction of motion.
 
+mod corners;
+mod directory;
+mod nearby;
+
 use crate::plane::{Facing, Plane, PlaneError};
+use directory::Directory;
 use nalgebra::Vector2;
+pub use nearby::Clearance;
+use std::ops::Range;
+
+/// Searches look this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
+pub(crate) const WIDENED: f64 = 1.0 + 1.0e-6;
 
 /// Part of a row that is wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,25 +20,14 @@ struct Interval {
     end: f64,
 }
 
-impl Interval {
-    /// How far `along` lies outside; 0 within.
-    fn gap(self, along: f64) -> f64 {
-        if along < self.start {
-            self.start - along
-        } else if self.end < along {
-            along - self.end
-        } else {
-            0.0
-        }
-    }
-}
-
 /// All faces of one group that share an offset: `intervals[first..last]` of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Row {
     offset: f64,
-    first: usize,
-    last: usize,
+    first: u32,
+    last: u32,
+    /// Of the intervals' ends.
+    ends: Directory,
 }
 
 /// The faces that look one way.
@@ -37,6 +36,12 @@ struct Row {
 struct Group {
     rows: Vec<Row>,
     intervals: Vec<Interval>,
+    /// One for each interval: whether its start and its end are corners that a ball can touch.
+    is_corner: Vec<[bool; 2]>,
+    /// Of the rows' offsets.
+    offsets: Directory,
+    /// What the directories look up.
+    table: Vec<u32>,
 }
 
 /// Wall faces in four groups sorted by (offset, start, end). Built once in O(n log n), then searched by bisection.
@@ -44,23 +49,56 @@ struct Group {
 /// The report bisects once over the sorted tuples, which has two faults: several offsets may lie within the ball's reach,
 /// so the first candidate need not be the nearest; and a test of start and end against the ball's centre forgets its
 /// extent. Here a group is a list of rows of equal offset, each with disjoint sorted intervals: bisect for the first row
-/// in reach, walk the rows in the direction of motion, bisect in each for the interval. O(log n) a row within reach.
+/// in reach, walk the rows in the direction of motion, bisect in each for the interval. O(log n) a row within reach, and
+/// O(1) where offsets and interval ends are evenly spread: directories tell each bisection where to begin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SortedPlanes {
     groups: [Group; 4], // in the order of Facing::ALL
+    /// Whether a face somewhere ends without meeting another, as one side of a wall without thickness does.
+    has_free_ends: bool,
+}
+
+/// A plane, and which of its ends are corners that a ball can touch: where faces meet outward, and free ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Face {
+    pub(crate) plane: Plane,
+    pub(crate) is_corner: [bool; 2],
+}
+
+impl Face {
+    /// The ends that are corners.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Vector2<f64>> {
+        let ends = [self.plane.start, self.plane.end].into_iter().zip(self.is_corner);
+        let facing = self.plane.facing;
+        ends.filter(|(_, is_corner)| *is_corner).map(move |(along, _)| facing.point(self.plane.offset, along))
+    }
 }
 
 impl SortedPlanes {
     /// Sorts the planes and merges those of the same facing and offset that touch or overlap.
     ///
     /// # Errors
-    /// A plane with a coordinate that is not finite, or with no extent.
+    /// A plane with a coordinate that is not finite, or with no extent; more than 2³² planes of one facing.
     pub fn new(planes: impl IntoIterator<Item = Plane>) -> Result<Self, PlaneError> {
         let mut by_facing: [Vec<Plane>; 4] = Default::default();
         for (index, plane) in planes.into_iter().enumerate() {
             by_facing[plane.facing as usize].push(plane.checked(index)?);
         }
-        Ok(Self { groups: by_facing.map(Group::new) })
+        if by_facing.iter().any(|planes| u32::try_from(planes.len()).is_err()) {
+            return Err(PlaneError::TooMany);
+        }
+        let mut sorted = Self { groups: by_facing.map(Group::new), has_free_ends: false };
+        sorted.find_corners();
+        Ok(sorted)
+    }
+
+    /// The same planes searched by bisection alone: what the directories are measured and tested against.
+    #[must_use]
+    pub fn without_directories(mut self) -> Self {
+        for group in &mut self.groups {
+            group.list_directories(|_| 1);
+        }
+        self
     }
 
     /// Number of planes after merging.
@@ -83,54 +121,50 @@ impl SortedPlanes {
         self.group(facing).rows.len()
     }
 
+    /// Whether a face somewhere ends without meeting another, as one side of a wall without thickness does.
+    pub(crate) fn has_free_ends(&self) -> bool {
+        self.has_free_ends
+    }
+
     /// One group in sorted order (the report's Fig. 5).
     pub fn planes(&self, facing: Facing) -> impl Iterator<Item = Plane> {
+        self.faces(facing).map(|face| face.plane)
+    }
+
+    /// One group in sorted order, with what is known about the planes' ends.
+    pub(crate) fn faces(&self, facing: Facing) -> impl Iterator<Item = Face> {
         let group = self.group(facing);
         group.rows.iter().flat_map(move |row| {
-            let plane = move |interval: &Interval| Plane {
-                facing,
-                offset: row.offset,
-                start: interval.start,
-                end: interval.end,
-            };
-            group.intervals[row.first..row.last].iter().map(plane)
+            let view = RowView { facing, group, row };
+            view.all().map(move |index| view.face(index))
         })
     }
 
     /// The first plane of one group, met in its direction of motion, whose closest point lies nearer than `radius`.
     ///
     /// Rows are met in the direction of motion: ascending offsets for faces that look towards minus (the ball moves towards
-    /// plus), descending otherwise. A face that the centre has passed by less than the radius still counts. Within a row the interval nearest to the centre wins, the lower one on a tie.
+    /// plus), descending otherwise. A face that the centre has passed by less than the radius still counts. Within a row the
+    /// interval nearest to the centre wins, the lower one on a tie.
     /// Needs a finite `centre` and `radius`. O(log n) for each row that lies within reach.
     pub fn first_overlap(&self, facing: Facing, centre: Vector2<f64>, radius: f64) -> Option<Plane> {
-        let group = self.group(facing);
         let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
-        let low = group.rows.partition_point(|row| row.offset - across <= -radius);
-        let high = low + group.rows[low..].partition_point(|row| row.offset - across < radius);
-        let hit = |row: &Row| group.nearest_in_row(facing, row, across, along, radius);
-        if facing.sign() < 0.0 {
-            group.rows[low..high].iter().find_map(hit)
-        } else {
-            group.rows[low..high].iter().rev().find_map(hit)
-        }
+        let reach = radius * WIDENED;
+        self.rows_within(facing, [across - reach, across + reach]).find_map(|row| {
+            let plane = row.nearest(along)?;
+            is_within(plane.offset - across, plane.gap(along), radius).then_some(plane)
+        })
     }
 
     /// The plain O(n) truth that [`SortedPlanes::first_overlap`] is tested against.
     pub fn first_overlap_scan(&self, facing: Facing, centre: Vector2<f64>, radius: f64) -> Option<Plane> {
         let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
-        let rank = |plane: &Plane| {
-            let gap = Interval { start: plane.start, end: plane.end }.gap(along);
-            (-facing.sign() * plane.offset, gap, plane.start)
-        };
-        self.planes(facing)
-            .filter(|plane| {
-                let (_, gap, _) = rank(plane);
-                is_within(plane.offset - across, gap, radius)
-            })
-            .min_by(|a, b| {
+        let rank = |plane: &Plane| (-facing.sign() * plane.offset, plane.gap(along), plane.start);
+        self.planes(facing).filter(|plane| is_within(plane.offset - across, plane.gap(along), radius)).min_by(
+            |a, b| {
                 let (a, b) = (rank(a), rank(b));
                 a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
-            })
+            },
+        )
     }
 
     /// The rows of one group with offsets in a closed range, in the direction of motion of a ball that they stop.
@@ -140,12 +174,16 @@ impl SortedPlanes {
         [low, high]: [f64; 2],
     ) -> impl Iterator<Item = RowView<'_>> {
         let group = self.group(facing);
-        let first = group.rows.partition_point(|row| row.offset < low);
-        let last = first + group.rows[first..].partition_point(|row| row.offset <= high);
-        let n_rows = last - first;
-        (0..n_rows).map(move |step| {
-            let row = &group.rows[if facing.sign() < 0.0 { first + step } else { last - 1 - step }];
-            RowView { facing, offset: row.offset, intervals: &group.intervals[row.first..row.last] }
+        let ascends = facing.sign() < 0.0;
+        let begin = if ascends {
+            group.bisect_rows(low, |offset| offset < low)
+        } else {
+            group.bisect_rows(high, |offset| offset <= high)
+        };
+        (0..).map_while(move |n| {
+            let index = if ascends { begin + n } else { begin.checked_sub(n + 1)? };
+            let row = group.rows.get(index)?;
+            (low <= row.offset && row.offset <= high).then_some(RowView { facing, group, row })
         })
     }
 
@@ -153,7 +191,8 @@ impl SortedPlanes {
     pub(crate) fn ending_at(&self, facing: Facing, point: Vector2<f64>) -> Option<Plane> {
         let (across, along) = (point[facing.axis()], point[1 - facing.axis()]);
         let row = self.rows_within(facing, [across, across]).next()?;
-        row.within([along, along]).find(|plane| plane.start == along || plane.end == along)
+        let mut planes = row.within([along, along]).map(|face| face.plane);
+        planes.find(|plane| plane.start == along || plane.end == along)
     }
 
     fn group(&self, facing: Facing) -> &Group {
@@ -161,28 +200,54 @@ impl SortedPlanes {
     }
 }
 
-/// A row, to look for intervals in.
+/// A row, to look for planes in.
+#[derive(Clone, Copy)]
 pub(crate) struct RowView<'a> {
     facing: Facing,
-    offset: f64,
-    intervals: &'a [Interval],
+    group: &'a Group,
+    row: &'a Row,
 }
 
 impl RowView<'_> {
     pub(crate) fn offset(&self) -> f64 {
-        self.offset
+        self.row.offset
+    }
+
+    /// Where among the group's intervals the row's are.
+    fn all(&self) -> Range<usize> {
+        self.row.first as usize..self.row.last as usize
+    }
+
+    /// Index of the first interval that does not end below `low`.
+    fn bisect(&self, low: f64) -> usize {
+        let part = self.row.ends.narrow(&self.group.table, low);
+        part.start + self.group.intervals[part].partition_point(|interval| interval.end < low)
+    }
+
+    fn plane(&self, interval: &Interval) -> Plane {
+        Plane { facing: self.facing, offset: self.row.offset, start: interval.start, end: interval.end }
+    }
+
+    fn face(&self, index: usize) -> Face {
+        Face { plane: self.plane(&self.group.intervals[index]), is_corner: self.group.is_corner[index] }
     }
 
     /// The planes that touch a closed range along the row, ascending.
-    pub(crate) fn within(&self, [low, high]: [f64; 2]) -> impl Iterator<Item = Plane> {
-        let first = self.intervals.partition_point(|interval| interval.end < low);
-        let near = self.intervals[first..].iter().take_while(move |interval| interval.start <= high);
-        near.map(|interval| Plane {
-            facing: self.facing,
-            offset: self.offset,
-            start: interval.start,
-            end: interval.end,
-        })
+    pub(crate) fn within(self, [low, high]: [f64; 2]) -> impl Iterator<Item = Face> {
+        let rest = self.bisect(low)..self.row.last as usize;
+        rest.take_while(move |index| self.group.intervals[*index].start <= high)
+            .map(move |index| self.face(index))
+    }
+
+    /// The plane nearest to `along`, the lower one on a tie.
+    fn nearest(&self, along: f64) -> Option<Plane> {
+        let next = self.bisect(along);
+        let at = |index: usize| self.all().contains(&index).then(|| self.plane(&self.group.intervals[index]));
+        match (next.checked_sub(1).and_then(at), at(next)) {
+            (Some(below), Some(above)) if above.gap(along) < below.gap(along) => Some(above),
+            (Some(below), _) => Some(below),
+            (None, above) => above,
+        }
     }
 }
 
@@ -197,12 +262,13 @@ impl Group {
             a.offset.total_cmp(&b.offset).then(a.start.total_cmp(&b.start)).then(a.end.total_cmp(&b.end))
         });
         let mut group = Self::default();
+        let mut n_intervals = 0;
         for plane in planes {
             // Compared as numbers, so that rows at -0 and +0 are one row.
             let same_row = group.rows.last().is_some_and(|row| row.offset == plane.offset);
             if !same_row {
-                let first = group.intervals.len();
-                group.rows.push(Row { offset: plane.offset, first, last: first });
+                let ends = Directory::default();
+                group.rows.push(Row { offset: plane.offset, first: n_intervals, last: n_intervals, ends });
             }
             let interval = Interval { start: plane.start, end: plane.end };
             match group.intervals.last_mut() {
@@ -211,39 +277,38 @@ impl Group {
                         previous.end = interval.end;
                     }
                 }
-                _ => group.intervals.push(interval),
+                _ => {
+                    group.intervals.push(interval);
+                    n_intervals += 1;
+                }
             }
             if let Some(row) = group.rows.last_mut() {
-                row.last = group.intervals.len();
+                row.last = n_intervals;
             }
         }
+        group.is_corner = vec![[true; 2]; group.intervals.len()];
+        group.list_directories(|n_keys| n_keys);
         group
     }
 
-    /// Of one row, the interval nearest to `along`, if it is within the radius.
-    fn nearest_in_row(
-        &self,
-        facing: Facing,
-        row: &Row,
-        across: f64,
-        along: f64,
-        radius: f64,
-    ) -> Option<Plane> {
-        let intervals = &self.intervals[row.first..row.last];
-        let next = intervals.partition_point(|interval| interval.end < along);
-        let above = intervals.get(next);
-        let below = next.checked_sub(1).and_then(|previous| intervals.get(previous));
-        let nearest = match (below, above) {
-            (Some(below), Some(above)) if above.gap(along) < below.gap(along) => above,
-            (Some(below), _) => below,
-            (None, above) => above?,
-        };
-        is_within(row.offset - across, nearest.gap(along), radius).then_some(Plane {
-            facing,
-            offset: row.offset,
-            start: nearest.start,
-            end: nearest.end,
-        })
+    /// Makes the directories, each with a number of buckets that follows from its number of keys.
+    fn list_directories(&mut self, n_buckets: impl Fn(u32) -> u32) {
+        self.table.clear();
+        for row in &mut self.rows {
+            let end = |n: u32| self.intervals[n as usize].end;
+            row.ends =
+                Directory::append(&mut self.table, row.first..row.last, n_buckets(row.last - row.first), end);
+        }
+        // No more rows than intervals, whose number fits.
+        let n_rows = u32::try_from(self.rows.len()).unwrap_or(u32::MAX);
+        let offset = |n: u32| self.rows[n as usize].offset;
+        self.offsets = Directory::append(&mut self.table, 0..n_rows, n_buckets(n_rows), offset);
+    }
+
+    /// Number of rows whose offsets are below `value`, as `is_below` tells them.
+    fn bisect_rows(&self, value: f64, is_below: impl Fn(f64) -> bool) -> usize {
+        let part = self.offsets.narrow(&self.table, value);
+        part.start + self.rows[part].partition_point(|row| is_below(row.offset))
     }
 }
 

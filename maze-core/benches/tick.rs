@@ -1,0 +1,171 @@
+//! What a tick costs, as the maze and the speed grow: `cargo bench -p maze-core --bench tick`.
+//!
+//! `coherent` rolls one ball tick after tick; `random` ticks balls all over the maze in turn, so that each finds the caches
+//! cold; `speed` bounces one without loss at 1 to 1000 units/s. The number of hits a tick is part of the name.
+#![allow(clippy::disallowed_methods, reason = "a benchmark may choose its inputs in any way")]
+#![allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Layout, Plane, Published, SortedPlanes};
+use maze_core::{extrude, layout};
+use nalgebra::Vector2;
+use std::hint::black_box;
+use std::sync::Arc;
+
+const TICK_S: f64 = 0.03;
+
+/// Cells along a side of the maze that is laid side by side with itself, so that a ball meets the same walls in all sizes.
+const TILE: usize = 24;
+
+/// Tiles along a side, for about 10³, 10⁴, 10⁵ and 10⁶ planes.
+const N_TILES: [usize; 4] = [1, 3, 10, 34];
+
+const PITCH: f64 = extrude::CORRIDOR + extrude::WALL_THICKNESS;
+
+/// A square maze and where its cells are.
+struct Grid {
+    planes: Arc<SortedPlanes>,
+    side: usize,
+}
+
+impl Grid {
+    /// The ground plan of a layout, without the way through a mesh that a million planes would take long for.
+    fn new(n_tiles: usize) -> Result<Self, Box<dyn std::error::Error>> {
+        let layout = layout::recursive_backtracker(TILE, TILE, 2020)?;
+        Ok(Self { planes: Arc::new(SortedPlanes::new(faces(&layout, n_tiles))?), side: n_tiles * TILE })
+    }
+
+    fn centre(&self, cell: usize) -> Vector2<f64> {
+        let at = |index: usize| index as f64 * PITCH + extrude::WALL_THICKNESS + extrude::CORRIDOR / 2.0;
+        Vector2::new(at(cell % self.side), at(cell / self.side % self.side))
+    }
+}
+
+fn line(k: usize) -> f64 {
+    k.div_ceil(2) as f64 * extrude::WALL_THICKNESS + (k / 2) as f64 * extrude::CORRIDOR
+}
+
+fn faces(tile: &Layout, n_tiles: usize) -> Vec<Plane> {
+    let n = 2 * TILE * n_tiles + 1;
+    let is_wall = |i: usize, j: usize| match (i % 2, j % 2) {
+        (1, 1) => false,
+        (0, 1) => i == 0 || !tile.is_open_east((i / 2 - 1) % TILE, j / 2 % TILE),
+        (1, 0) => j == 0 || !tile.is_open_north(i / 2 % TILE, (j / 2 - 1) % TILE),
+        _ => true,
+    };
+    let mut faces = Vec::new();
+    for across in 0..n {
+        for step in 1..n {
+            let [offset, start, end] = [step, across, across + 1].map(line);
+            let mut push = |before, after, [minus, plus]: [Facing; 2]| match (before, after) {
+                (true, false) => faces.push(Plane { facing: plus, offset, start, end }),
+                (false, true) => faces.push(Plane { facing: minus, offset, start, end }),
+                _ => {}
+            };
+            push(is_wall(step - 1, across), is_wall(step, across), [Facing::MinusX, Facing::PlusX]);
+            push(is_wall(across, step - 1), is_wall(across, step), [Facing::MinusY, Facing::PlusY]);
+        }
+    }
+    faces
+}
+
+/// A pull of 1 unit/s² that turns once in 3 s.
+fn turning_pulls() -> Vec<Vector2<f64>> {
+    let turn = |tick: u32| f64::from(tick) / 100.0 * std::f64::consts::TAU;
+    (0..100).map(|tick| Vector2::new(turn(tick).cos(), turn(tick).sin())).collect()
+}
+
+type Make = fn(Arc<SortedPlanes>, BallSpec, Ball) -> Box<dyn Engine>;
+
+const ENGINES: [(&str, Make); 2] = [
+    ("continuous", |planes, spec, ball| match Continuous::new(planes, spec, ball, TICK_S) {
+        Ok(engine) => Box::new(engine),
+        Err(error) => panic!("{error}"),
+    }),
+    ("published", |planes, spec, ball| match Published::new(planes, spec, ball) {
+        Ok(engine) => Box::new(engine),
+        Err(error) => panic!("{error}"),
+    }),
+];
+
+fn tick(engine: &mut dyn Engine, pull: Vector2<f64>) -> u32 {
+    match engine.tick(black_box(pull)) {
+        Ok(tick) => tick.n_hits,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn coherent(criterion: &mut Criterion, grids: &[Grid]) {
+    let mut group = criterion.benchmark_group("coherent");
+    let pulls = turning_pulls();
+    for grid in grids {
+        for (name, make) in ENGINES {
+            let middle = grid.side / TILE / 2 * TILE + TILE / 2;
+            let start = Ball::at(grid.centre(middle * grid.side + middle));
+            let mut engine = make(grid.planes.clone(), BallSpec::default(), start);
+            group.throughput(Throughput::Elements(pulls.len() as u64));
+            group.bench_function(BenchmarkId::new(name, grid.planes.len()), |bencher| {
+                bencher.iter(|| pulls.iter().map(|pull| tick(engine.as_mut(), *pull)).sum::<u32>());
+            });
+        }
+    }
+}
+
+fn random(criterion: &mut Criterion, grids: &[Grid]) {
+    const N_BALLS: usize = 4096;
+    let mut group = criterion.benchmark_group("random");
+    for grid in grids {
+        for (name, make) in ENGINES {
+            // Far from one another, in an order that no prefetcher guesses.
+            let mut engines: Vec<_> = (0..N_BALLS)
+                .map(|n| {
+                    let cell = n.wrapping_mul(0x9e37_79b9_7f4a_7c15) % (grid.side * grid.side);
+                    make(grid.planes.clone(), BallSpec::default(), Ball::at(grid.centre(cell)))
+                })
+                .collect();
+            let pulls = turning_pulls();
+            let mut round = 0;
+            group.throughput(Throughput::Elements(N_BALLS as u64));
+            group.bench_function(BenchmarkId::new(name, grid.planes.len()), |bencher| {
+                bencher.iter(|| {
+                    round += 1;
+                    let one = |(n, engine): (usize, &mut Box<dyn Engine>)| {
+                        tick(engine.as_mut(), pulls[(n + round) % pulls.len()])
+                    };
+                    engines.iter_mut().enumerate().map(one).sum::<u32>()
+                });
+            });
+        }
+    }
+}
+
+fn speed(criterion: &mut Criterion, grid: &Grid) {
+    let mut group = criterion.benchmark_group("speed");
+    for speed in [1.0, 10.0, 100.0, 1000.0] {
+        for (name, make) in ENGINES {
+            let spec = BallSpec { restitution: 1.0, ..BallSpec::default() };
+            let start = Ball { position: grid.centre(0), velocity: Vector2::new(0.6, 0.8) * speed };
+            let mut engine = make(grid.planes.clone(), spec, start);
+            let n_hits: u32 = (0..1000).map(|_| tick(engine.as_mut(), Vector2::zeros())).sum();
+            let hits_a_tick = format!("{:.2} hits a tick", f64::from(n_hits) / 1000.0);
+            group.bench_function(BenchmarkId::new(format!("{name} x{speed}"), hits_a_tick), |bencher| {
+                bencher.iter(|| tick(engine.as_mut(), Vector2::zeros()));
+            });
+        }
+    }
+}
+
+fn benches(criterion: &mut Criterion) {
+    let grids: Result<Vec<_>, _> = N_TILES.into_iter().map(Grid::new).collect();
+    match grids {
+        Ok(grids) => {
+            coherent(criterion, &grids);
+            random(criterion, &grids);
+            speed(criterion, &grids[1]);
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+criterion_group!(ticks, benches);
+criterion_main!(ticks);
