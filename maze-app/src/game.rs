@@ -101,10 +101,10 @@ impl Game {
         self.run.n_ticks()
     }
 
-    /// Radius, restitution, rolling factor and tick length: what a recording keeps of the engine.
-    pub(crate) fn constants(&self) -> [f64; 4] {
+    /// Radius, restitution, rolling factor, rolling resistance and tick length: what a recording keeps of the engine.
+    pub(crate) fn constants(&self) -> [f64; 5] {
         let spec = self.engine.spec();
-        [spec.radius.units(), spec.restitution, spec.rolling, self.engine.tick_s()]
+        [spec.radius.units(), spec.restitution, spec.rolling, spec.resistance, self.engine.tick_s()]
     }
 
     pub(crate) fn tick_s(&self) -> f64 {

@@ -5,10 +5,14 @@
 
 #![allow(clippy::disallowed_methods, reason = "the judge may compute in any way")]
 
+#[path = "../tests/noise/mod.rs"]
+mod noise;
+
+use indicatif::{ProgressBar, ProgressStyle};
 use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Radius};
 use maze_core::{SortedPlanes, extrude, layout};
 use nalgebra::Vector2;
-use std::io::{IsTerminal, Write};
+use noise::Noise;
 use std::process::ExitCode;
 
 const TICK_S: f64 = 0.03;
@@ -17,26 +21,6 @@ const TICK_S: f64 = 0.03;
 const BAR: f64 = 1.0e-9;
 
 const TICKS_PER_MAZE: u64 = 50_000;
-
-/// Numbers that look random and are the same everywhere (splitmix64).
-struct Noise(u64);
-
-impl Noise {
-    /// -1 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        #[allow(clippy::cast_precision_loss, reason = "53 bits are kept on purpose")]
-        let part = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64;
-        part - 1.0
-    }
-
-    fn vector(&mut self) -> Vector2<f64> {
-        Vector2::new(self.next(), self.next())
-    }
-}
 
 #[derive(Default)]
 struct Totals {
@@ -193,17 +177,19 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
         return Ok(ExitCode::from(2));
     };
     let mut totals = Totals::default();
+    // Shows itself on a terminal only.
+    let bar = ProgressBar::new(n_wanted).with_style(ProgressStyle::with_template(
+        "{wide_bar} {human_pos} of {human_len} ticks, {per_sec}, {eta} left",
+    )?);
     for seed in 0.. {
         let left = n_wanted - totals.n_ticks;
         if left == 0 {
             break;
         }
         run_maze(seed, left.min(TICKS_PER_MAZE), &mut totals)?;
-        if std::io::stderr().is_terminal() {
-            eprint!("\r{:>3} %", 100 * totals.n_ticks / n_wanted);
-            std::io::stderr().flush()?;
-        }
+        bar.set_position(totals.n_ticks);
     }
+    bar.finish_and_clear();
     println!("ticks               {}", totals.n_ticks);
     println!(
         "hits                {} ({} of corners, {} ended in rest)",

@@ -70,6 +70,8 @@ pub struct BallSpec {
     pub restitution: f64,
     /// Part of the projected gravity that accelerates the centre: [`BallSpec::POINT_MASS`] or [`BallSpec::ROLLING_SPHERE`].
     pub rolling: f64,
+    /// Rolling resistance: deceleration against the motion (units/s²), from 0, which is off.
+    pub resistance: f64,
 }
 
 impl BallSpec {
@@ -79,13 +81,33 @@ impl BallSpec {
     pub const ROLLING_SPHERE: f64 = 5.0 / 7.0;
     /// The report's restitution.
     pub const RESTITUTION: f64 = 0.8;
+
     /// The spec itself, or which of its numbers is out of range.
     pub fn checked(self) -> Result<Self, OutOfRange> {
         let part = |what| OutOfRange { what, expected: "a part, 0 to 1" };
         if !(0.0..=1.0).contains(&self.restitution) {
             return Err(part("the restitution"));
         }
-        if !(0.0..=1.0).contains(&self.rolling) { Err(part("the rolling factor")) } else { Ok(self) }
+        if !(0.0..=1.0).contains(&self.rolling) {
+            return Err(part("the rolling factor"));
+        }
+        let is_resistance = self.resistance.is_finite() && 0.0 <= self.resistance;
+        let expected = "a finite number, 0 or more";
+        if is_resistance { Ok(self) } else { Err(OutOfRange { what: "the rolling resistance", expected }) }
+    }
+
+    /// What rolling resistance leaves of a velocity after a time (s): its direction, and never a turn.
+    pub(crate) fn slowed(&self, velocity: Vector2<f64>, time_s: f64) -> Vector2<f64> {
+        if self.resistance == 0.0 {
+            return velocity;
+        }
+        let (speed, loss) = (velocity.norm(), self.resistance * time_s);
+        if speed <= loss { Vector2::zeros() } else { velocity * (1.0 - loss / speed) }
+    }
+
+    /// Whether rolling resistance holds a ball: it stops within the time (s), and the pull does not overcome it.
+    pub(crate) fn holds(&self, velocity: Vector2<f64>, pull: Vector2<f64>, time_s: f64) -> bool {
+        0.0 < self.resistance && pull.norm() <= self.resistance && velocity.norm() <= self.resistance * time_s
     }
 
     /// The usual radius: large enough to be seen, and corridors stay wide enough to bounce in.
@@ -94,6 +116,11 @@ impl BallSpec {
 
 impl Default for BallSpec {
     fn default() -> Self {
-        Self { radius: Self::RADIUS, restitution: Self::RESTITUTION, rolling: Self::POINT_MASS }
+        Self {
+            radius: Self::RADIUS,
+            restitution: Self::RESTITUTION,
+            rolling: Self::POINT_MASS,
+            resistance: 0.0,
+        }
     }
 }

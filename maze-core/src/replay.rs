@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 const MAGIC: &[u8; 8] = b"MAZERUN\n";
 
 /// Version of the format and of everything that decides the motion: raised when an old recording would end elsewhere.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Longest recording: ten hours of ticks of 0.03 s, 5 MB.
 const MAX_TICKS: usize = 1_200_000;
@@ -27,8 +27,8 @@ pub struct Recording {
     pub maze_hash: u64,
     /// Which engine.
     pub engine: String,
-    /// Radius (units), restitution, rolling factor, tick length (s).
-    pub constants: [f64; 4],
+    /// Radius (units), restitution, rolling factor, rolling resistance (units/s²), tick length (s).
+    pub constants: [f64; 5],
     /// One a tick.
     pub tilts: Vec<Tilt>,
     /// [`state_hash`] of the ball after the last tick.
@@ -132,6 +132,7 @@ impl Recording {
                 f64::from_le_bytes(reader.take("the ball's radius")?),
                 f64::from_le_bytes(reader.take("the restitution")?),
                 f64::from_le_bytes(reader.take("the rolling factor")?),
+                f64::from_le_bytes(reader.take("the rolling resistance")?),
                 f64::from_le_bytes(reader.take("the tick's length")?),
             ],
             tilts: reader.tilts()?,
@@ -189,7 +190,7 @@ mod tests {
             source: "--seed 7".to_owned(),
             maze_hash: 0x1234_5678_9abc_def0,
             engine: "continuous".to_owned(),
-            constants: [0.35, 0.8, 1.0, 0.03],
+            constants: [0.35, 0.8, 1.0, 0.0, 0.03],
             tilts: (0..20_000).map(|n| Tilt { towards_x: n, towards_y: -n }).collect(),
             final_hash: 42,
         }
@@ -216,7 +217,7 @@ mod tests {
         other[MAGIC.len()] = 9;
         assert_eq!(
             Recording::from_bytes(&other).unwrap_err().to_string(),
-            "a recording of version 9: this program plays version 1"
+            "a recording of version 9: this program plays version 2"
         );
         let mut absurd = bytes;
         absurd[MAGIC.len() + 4 + 7] = 0xff;

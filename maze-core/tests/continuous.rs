@@ -7,11 +7,14 @@
 )]
 #![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use trigonometry")]
 
+mod noise;
+
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, Tick,
     extrude, layout,
 };
 use nalgebra::Vector2;
+use noise::Noise;
 use std::sync::Arc;
 
 const E: f64 = BallSpec::RESTITUTION;
@@ -280,20 +283,6 @@ fn random_maze(seed: u64) -> Maze {
     Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap()
 }
 
-/// Numbers that look random and are the same everywhere.
-struct Noise(u64);
-
-impl Noise {
-    /// -1 to 1 (splitmix64).
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 /// How deep the ball is in the nearest wall, by a scan of every plane and both of its ends.
 fn penetration(planes: &SortedPlanes, position: Vector2<f64>, radius: f64) -> f64 {
     let mut deepest = 0.0_f64;
@@ -319,11 +308,11 @@ fn a_million_random_ticks_never_penetrate_tunnel_or_gain_energy() {
         for n in 0..50_000_u32 {
             if n % 1000 == 0 {
                 let speed = 10.0_f64.powf(4.0 * noise.next().abs());
-                let velocity = Vector2::new(noise.next(), noise.next()) * speed;
+                let velocity = noise.vector() * speed;
                 engine.place(Ball { position: engine.ball().position, velocity }).unwrap();
             }
             let strength = if n % 7000 < 1000 { 1000.0 } else { 5.0 };
-            let pull = Vector2::new(noise.next(), noise.next()) * strength;
+            let pull = noise.vector() * strength;
             let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
             let before = engine.ball();
             let tick = engine.tick(pull).unwrap();
@@ -367,11 +356,7 @@ fn a_marathon_of_20000_ticks_ends_in_the_same_bits_everywhere() {
     let mut n_hits = 0;
     for tick in 0..20_000 {
         // Held for ten ticks, so that there is rest, sliding and rolling around corners as well.
-        let pull = if tick % 10 < 5 {
-            Vector2::new(noise.next(), noise.next()) * 4.0
-        } else {
-            Vector2::new(0.5, -2.0)
-        };
+        let pull = if tick % 10 < 5 { noise.vector() * 4.0 } else { Vector2::new(0.5, -2.0) };
         n_hits += engine.tick(pull).unwrap().n_hits;
     }
     assert!(1000 < n_hits);
@@ -384,24 +369,87 @@ fn a_marathon_of_20000_ticks_ends_in_the_same_bits_everywhere() {
 }
 
 #[test]
-fn a_mirrored_maze_gives_the_mirrored_path() {
+fn rolling_resistance_stops_a_ball_where_mechanics_says_and_then_holds_it() {
+    let spec = BallSpec { resistance: 0.5, ..spec(E) };
+    let planes = Arc::new(SortedPlanes::new(FLOOR).unwrap());
+    let start = ball([0.0, R], [3.0, 0.0]);
+    let mut engine = Continuous::new(planes, spec, start, 0.001).unwrap();
+    run(&mut engine, [0.0, -4.0], 10.0);
+    // v² / (2 c) = 9; the speed is taken at the end of each tick, which is v tick / 2 too far at most.
+    assert!((engine.ball().position.x - 9.0).abs() < 3.0 * 0.001, "{}", engine.ball().position);
+    let stopped = engine.ball();
+    assert_eq!(stopped.velocity, Vector2::zeros());
+    run(&mut engine, [0.49, -4.0], 1.0);
+    assert_eq!(engine.ball(), stopped, "a pull below the resistance moves nothing");
+    run(&mut engine, [0.51, -4.0], 1.0);
+    assert!(stopped.position.x < engine.ball().position.x);
+}
+
+#[test]
+fn with_rolling_resistance_energy_only_falls() {
+    let maze = random_maze(5);
+    let spec = BallSpec { resistance: 0.3, ..spec(E) };
+    let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), 0.03).unwrap();
+    let mut noise = Noise(5);
+    for n in 0..20_000 {
+        let pull = noise.vector() * 4.0;
+        let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
+        let before = energy(engine.ball());
+        engine.tick(pull).unwrap();
+        // Rounding at energies below 100.
+        assert!(energy(engine.ball()) <= before + 1.0e-12, "tick {n}");
+    }
+    for bad in [-0.1, f64::NAN, f64::INFINITY] {
+        let refused = BallSpec { resistance: bad, ..spec }.checked().unwrap_err();
+        assert_eq!(refused.to_string(), "the rolling resistance: expected a finite number, 0 or more");
+    }
+}
+
+/// A quarter turn or a mirror image, of points and of planes.
+struct Symmetry {
+    point: fn(Vector2<f64>) -> Vector2<f64>,
+    plane: fn(Plane) -> Plane,
+}
+
+/// Runs a maze and its image side by side.
+fn image_of_the_path_is_the_path_of_the_image(symmetry: &Symmetry) {
     let maze = random_maze(3);
-    let mirrored =
-        Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).map(|p| match p.facing {
+    let image = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).map(symmetry.plane);
+    let image = Arc::new(SortedPlanes::new(image).unwrap());
+    let at = Ball::at((symmetry.point)(maze.start));
+    let mut one = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
+    let mut other = Continuous::new(image, spec(E), at, 0.03).unwrap();
+    let mut noise = Noise(1);
+    for n in 0..2000 {
+        let pull = noise.vector() * 4.0;
+        one.tick(pull).unwrap();
+        other.tick((symmetry.point)(pull)).unwrap();
+        assert_eq!((symmetry.point)(one.ball().position), other.ball().position, "tick {n}");
+        assert_eq!((symmetry.point)(one.ball().velocity), other.ball().velocity, "tick {n}");
+    }
+}
+
+#[test]
+fn a_mirrored_maze_gives_the_mirrored_path() {
+    image_of_the_path_is_the_path_of_the_image(&Symmetry {
+        point: |v| Vector2::new(-v.x, v.y),
+        plane: |p| match p.facing {
             Facing::PlusX => plane(Facing::MinusX, -p.offset, p.start, p.end),
             Facing::MinusX => plane(Facing::PlusX, -p.offset, p.start, p.end),
             facing => plane(facing, p.offset, -p.end, -p.start),
-        });
-    let flip = |v: Vector2<f64>| Vector2::new(-v.x, v.y);
-    let mirrored = Arc::new(SortedPlanes::new(mirrored).unwrap());
-    let mut one = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
-    let mut other = Continuous::new(mirrored, spec(E), Ball::at(flip(maze.start)), 0.03).unwrap();
-    let mut noise = Noise(1);
-    for n in 0..2000 {
-        let pull = Vector2::new(noise.next(), noise.next()) * 4.0;
-        one.tick(pull).unwrap();
-        other.tick(flip(pull)).unwrap();
-        assert_eq!(flip(one.ball().position), other.ball().position, "tick {n}");
-        assert_eq!(flip(one.ball().velocity), other.ball().velocity, "tick {n}");
-    }
+        },
+    });
+}
+
+#[test]
+fn a_maze_turned_by_a_quarter_gives_the_turned_path() {
+    image_of_the_path_is_the_path_of_the_image(&Symmetry {
+        point: |v| Vector2::new(-v.y, v.x),
+        plane: |p| match p.facing {
+            Facing::PlusX => plane(Facing::PlusY, p.offset, -p.end, -p.start),
+            Facing::MinusX => plane(Facing::MinusY, p.offset, -p.end, -p.start),
+            Facing::PlusY => plane(Facing::MinusX, -p.offset, p.start, p.end),
+            Facing::MinusY => plane(Facing::PlusX, -p.offset, p.start, p.end),
+        },
+    });
 }

@@ -206,6 +206,27 @@ impl Continuous {
         roll.time_s
     }
 
+    /// Goes from event to event until the tick is over.
+    fn pass(&mut self, acceleration: Vector2<f64>, tick: &mut Tick) {
+        let mut left_s = self.tick_s;
+        for _ in 0..MAX_EVENTS {
+            left_s -= match self.support.corner {
+                Some(pivot) => self.roll(pivot, acceleration, left_s, tick),
+                None => self.fly(acceleration, left_s, tick),
+            };
+            if left_s <= 0.0 {
+                return;
+            }
+        }
+        tick.dropped_s = left_s;
+    }
+
+    /// Whether rolling resistance keeps the ball where it is, on the floor or along what carries it.
+    fn is_held(&self, acceleration: Vector2<f64>) -> bool {
+        let pull = self.path(acceleration).acceleration;
+        self.support.corner.is_none() && self.spec.holds(self.ball.velocity, pull, self.tick_s)
+    }
+
     /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first.
     fn recover(&mut self, tick: &mut Tick) {
         for _ in 0..MAX_RECOVERIES {
@@ -239,7 +260,13 @@ impl Engine for Continuous {
         let acceleration = acceleration * self.spec.rolling;
         let end = self.ball.velocity + acceleration * self.tick_s;
         if !end.iter().all(|value| value.is_finite()) {
-            return Err(OutOfRange::not_finite("the acceleration"));
+            // Told apart as `Published` does.
+            let is_pull = acceleration.iter().all(|value| value.is_finite());
+            return Err(OutOfRange::not_finite(if is_pull {
+                "the ball's velocity"
+            } else {
+                "the acceleration"
+            }));
         }
         let mut tick = Tick { n_steps: 1, ..Tick::default() };
         if self.is_placed {
@@ -247,17 +274,12 @@ impl Engine for Continuous {
             self.is_placed = false;
         }
         self.release(acceleration);
-        let mut left_s = self.tick_s;
-        for _ in 0..MAX_EVENTS {
-            left_s -= match self.support.corner {
-                Some(pivot) => self.roll(pivot, acceleration, left_s, &mut tick),
-                None => self.fly(acceleration, left_s, &mut tick),
-            };
-            if left_s <= 0.0 {
-                return Ok(tick);
-            }
+        if self.is_held(acceleration) {
+            self.ball.velocity = Vector2::zeros();
+            return Ok(tick);
         }
-        tick.dropped_s = left_s;
+        self.pass(acceleration, &mut tick);
+        self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(tick)
     }
 

@@ -87,6 +87,10 @@ impl Engine for Published {
         if !is_finite(velocity) {
             return Err(OutOfRange::not_finite("the ball's velocity"));
         }
+        if self.spec.holds(self.ball.velocity, acceleration * self.spec.rolling, Self::TICK_S) {
+            self.ball.velocity = Vector2::zeros();
+            return Ok(Tick { n_steps: 1, ..Tick::default() });
+        }
         self.ball.velocity = velocity;
         let displacement = velocity.norm() * Self::TICK_S;
         let (n_steps, dropped) = steps_for(displacement, self.spec.radius.units());
@@ -95,6 +99,7 @@ impl Engine for Published {
         for _ in 0..n_steps {
             self.step(step_s, &mut tick);
         }
+        self.ball.velocity = self.spec.slowed(self.ball.velocity, Self::TICK_S);
         Ok(tick)
     }
 
