@@ -6,13 +6,14 @@ mod view;
 use crate::clock::Clock;
 use crate::command::play::Setup;
 use crate::failure::Failure;
+use crate::files;
 use crate::game::{EngineKind, Game, to_f32};
 use crate::input::{self, Action, TiltControl};
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
 use crate::ui::Hud;
 use graphics::{Drawn, Graphics};
-use maze_core::Maze;
+use maze_core::{Event, Maze};
 use maze_render::{Camera, TextureSet};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -57,6 +58,9 @@ pub(crate) struct App {
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
     state_log: Option<StateLog>,
+    /// Where to write the run, and whether one that reached the goal stands there.
+    record: Option<PathBuf>,
+    is_recorded: bool,
     exit_after: Option<Duration>,
     graphics: Option<Graphics>,
     cursor: PhysicalPosition<f64>,
@@ -84,6 +88,8 @@ impl App {
             textures: setup.textures,
             state_log_path: setup.state_log,
             state_log: None,
+            record: setup.record,
+            is_recorded: false,
             exit_after: setup.exit_after,
             graphics: None,
             cursor: PhysicalPosition::default(),
@@ -101,7 +107,15 @@ impl App {
     /// Until the window closes.
     pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<(), Failure> {
         event_loop.run_app(&mut self).map_err(Failure::bad_input)?;
+        if !self.is_recorded {
+            self.write_recording()?;
+        }
         self.failure.map_or(Ok(()), Err)
+    }
+
+    fn write_recording(&self) -> Result<(), Failure> {
+        let Some(path) = &self.record else { return Ok(()) };
+        files::write_whole(path, &self.game.recording(&self.source)?.to_bytes())
     }
 
     fn end_with(&mut self, event_loop: &ActiveEventLoop, failure: Failure) {
@@ -168,8 +182,12 @@ impl App {
         for _ in 0..self.clock.advance(elapsed.as_secs_f64()) {
             self.control.tick(self.game.tick_s());
             let tilt = self.control.tilt();
-            // The events are for sound; the screen reads the game's phase.
-            self.game.tick(tilt)?;
+            // The other events are for sound; the screen reads the game's phase.
+            let events = self.game.tick(tilt)?;
+            if events.iter().any(|event| matches!(event, Event::Finished(_))) {
+                self.write_recording()?;
+                self.is_recorded = true;
+            }
             self.n_ticks += 1;
             self.log_state()?;
         }

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use maze_render::{TextureSet, decode_bmp};
 use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Largest file that is read: far above any maze (a million faces are 60 MB).
 const MAX_BYTES: u64 = 1 << 28;
@@ -27,10 +27,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 /// Writes beside the target under a temporary name, then renames.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {}", plain(&error)));
-    let directory = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
-        _ => PathBuf::from("."),
-    };
+    let directory = directory_of(path);
     let mut file = tempfile::Builder::new();
     // A temporary file is private by default; the output is an ordinary file.
     #[cfg(unix)]
@@ -39,6 +36,22 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     file.write_all(bytes).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     Ok(())
+}
+
+/// Where a file lies.
+fn directory_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Checks that there is a directory to write to, before there is something to lose.
+pub(crate) fn expect_directory_of(path: &Path) -> Result<(), Failure> {
+    if directory_of(path).is_dir() && !path.is_dir() {
+        return Ok(());
+    }
+    Err(Failure::in_file(path, "cannot write: expected a file's name in a directory that there is"))
 }
 
 /// Prints to stdout. A reader that has seen enough (`| head`) is no error.

@@ -2,7 +2,9 @@
 
 use crate::failure::Failure;
 use crate::input::TiltControl;
+use crate::source::Source;
 use clap::ValueEnum;
+use maze_core::replay::{self, Recording};
 use maze_core::{
     Ball, BallSpec, Continuous, Engine, Event, Maze, OutOfRange, Phase, Published, Run, Tick, Tilt, gravity,
 };
@@ -46,10 +48,14 @@ impl EngineKind {
 /// Owns what a run is made of; knows nothing of windows.
 pub(crate) struct Game {
     maze: Maze,
+    kind: EngineKind,
     engine: Box<dyn Engine>,
     run: Run,
     last_tick: Tick,
     tilt: Tilt,
+    /// One for each tick of the engine since the start, and where the last of them left the ball.
+    tilts: Vec<Tilt>,
+    played_to: Ball,
     previous: Pose,
     current: Pose,
 }
@@ -76,12 +82,21 @@ impl Pose {
 }
 
 impl Game {
-    pub(crate) fn new(maze: Maze, engine: EngineKind) -> Result<Self, Failure> {
-        let engine = engine.build(&maze).map_err(Failure::bad_input)?;
+    pub(crate) fn new(maze: Maze, kind: EngineKind) -> Result<Self, Failure> {
+        let engine = kind.build(&maze).map_err(Failure::bad_input)?;
         let start = Pose::at_start(&maze);
-        let run = Run::new(&maze);
-        let last_tick = Tick::default();
-        Ok(Self { maze, engine, run, last_tick, tilt: Tilt::LEVEL, previous: start, current: start })
+        Ok(Self {
+            kind,
+            engine,
+            run: Run::new(&maze),
+            last_tick: Tick::default(),
+            tilt: Tilt::LEVEL,
+            tilts: Vec::new(),
+            played_to: Ball::at(maze.start),
+            previous: start,
+            current: start,
+            maze,
+        })
     }
 
     pub(crate) fn maze(&self) -> &Maze {
@@ -107,6 +122,30 @@ impl Game {
         [spec.radius.units(), spec.restitution, spec.rolling, spec.resistance, self.engine.tick_s()]
     }
 
+    /// How many ticks the engine has made since the start.
+    pub(crate) fn n_played(&self) -> usize {
+        self.tilts.len()
+    }
+
+    /// What was played since the start, up to the goal.
+    pub(crate) fn recording(&self, source: &Source) -> Result<Recording, Failure> {
+        if replay::MAX_TICKS < self.tilts.len() {
+            return Err(Failure::not_held(format!(
+                "the run is too long for a recording: {} ticks, at most {} fit",
+                self.tilts.len(),
+                replay::MAX_TICKS
+            )));
+        }
+        Ok(Recording {
+            source: source.words()?,
+            maze_hash: replay::maze_hash(&self.maze),
+            engine: self.kind.name().to_owned(),
+            constants: self.constants(),
+            tilts: self.tilts.clone(),
+            final_hash: replay::state_hash(self.played_to),
+        })
+    }
+
     pub(crate) fn tick_s(&self) -> f64 {
         self.engine.tick_s()
     }
@@ -124,6 +163,8 @@ impl Game {
         self.engine.place(Ball::at(self.maze.start)).map_err(Failure::bad_input)?;
         self.run = Run::new(&self.maze);
         self.tilt = Tilt::LEVEL;
+        self.tilts.clear();
+        self.played_to = self.engine.ball();
         self.current = Pose::at_start(&self.maze);
         self.previous = self.current;
         Ok(())
@@ -147,7 +188,9 @@ impl Game {
         }
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
         let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
-        let position = self.engine.ball().position;
+        self.tilts.push(tilt);
+        self.played_to = self.engine.ball();
+        let position = self.played_to.position;
         self.roll_to(position);
         self.last_tick = tick;
         Ok(self.run.observe(tilt, [self.previous.position, position], &tick).collect())

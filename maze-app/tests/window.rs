@@ -81,6 +81,8 @@ struct Session {
     _screen: Killed,
     display: String,
     log: PathBuf,
+    /// Number of states that had been logged when the last input was sent.
+    n_before_input: usize,
     _directory: tempfile::TempDir,
     window: String,
 }
@@ -119,6 +121,7 @@ impl Session {
             _screen: screen,
             display,
             log,
+            n_before_input: 0,
             _directory: directory,
             window: String::new(),
         };
@@ -126,15 +129,17 @@ impl Session {
         session.window = until("the window to show", || {
             output_of("xdotool", &session.display, &["search", "--onlyvisible", "--name", "^Maze"])
         });
-        session.xdotool(&["windowfocus", &session.window]);
+        let window = session.window.clone();
+        session.xdotool(&["windowfocus", &window]);
         session
     }
 
-    fn tool(&self, program: &str, arguments: &[&str]) {
+    fn tool(&mut self, program: &str, arguments: &[&str]) {
+        self.n_before_input = self.states().len();
         assert!(output_of(program, &self.display, arguments).is_some(), "{program} {arguments:?} failed");
     }
 
-    fn xdotool(&self, arguments: &[&str]) {
+    fn xdotool(&mut self, arguments: &[&str]) {
         self.tool("xdotool", arguments);
     }
 
@@ -148,12 +153,13 @@ impl Session {
         self.states().pop().expect("a state has been logged")
     }
 
+    /// The first state since the last input that is so: on a slow machine what is short passes between two looks.
     fn wait_for(&mut self, what: &str, condition: impl Fn(&State) -> bool) -> State {
         until(what, || {
             if let Some(status) = self.game.0.try_wait().unwrap() {
                 panic!("the game ended ({status}) while waiting for {what}");
             }
-            self.states().pop().filter(&condition)
+            self.states().into_iter().skip(self.n_before_input).find(&condition)
         })
     }
 
@@ -224,7 +230,9 @@ fn mouse_and_keys_play_the_game() {
 #[test]
 fn the_goal_stops_the_clock_and_r_starts_again() {
     // Two cells: the goal is at the other end of a straight corridor.
-    let mut session = Session::open(&["--size", "2x1"]);
+    let scratch = tempfile::tempdir().unwrap();
+    let run = scratch.path().join("run.maze").display().to_string();
+    let mut session = Session::open(&["--size", "2x1", "--record", &run]);
     let start = session.last();
     let key = if start.position[0] < 0.0 { "Right" } else { "Left" };
     session.xdotool(&["keydown", key]);
@@ -240,6 +248,11 @@ fn the_goal_stops_the_clock_and_r_starts_again() {
     session.expect_alive("a new maze");
     session.xdotool(&["key", "Escape"]);
     assert!(session.exit_status().success());
+    // The run that reached the goal was kept, and ends there again.
+    let replay = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(["replay", &run]).output().unwrap();
+    let said = String::from_utf8(replay.stdout).unwrap();
+    assert!(replay.status.success() && said.contains("same final state  true"), "{said}");
+    assert!(said.contains("finished"), "{said}");
 }
 
 #[test]

@@ -25,6 +25,7 @@ const PITCH: f64 = extrude::CORRIDOR + extrude::WALL_THICKNESS;
 /// A square maze and where its cells are.
 struct Grid {
     planes: Arc<SortedPlanes>,
+    plain: Arc<SortedPlanes>,
     side: usize,
 }
 
@@ -32,7 +33,9 @@ impl Grid {
     /// The ground plan of a layout, without the way through a mesh that a million planes would take long for.
     fn new(n_tiles: usize) -> Result<Self, Box<dyn std::error::Error>> {
         let layout = layout::recursive_backtracker(TILE, TILE, 2020)?;
-        Ok(Self { planes: Arc::new(SortedPlanes::new(faces(&layout, n_tiles))?), side: n_tiles * TILE })
+        let planes = SortedPlanes::new(faces(&layout, n_tiles))?;
+        let plain = Arc::new(planes.clone().without_directories());
+        Ok(Self { planes: Arc::new(planes), plain, side: n_tiles * TILE })
     }
 
     fn centre(&self, cell: usize) -> Vector2<f64> {
@@ -75,18 +78,37 @@ fn turning_pulls() -> Vec<Vector2<f64>> {
     (0..100).map(|tick| Vector2::new(turn(tick).cos(), turn(tick).sin())).collect()
 }
 
-type Make = fn(Arc<SortedPlanes>, BallSpec, Ball) -> Box<dyn Engine>;
+type Make = fn(&Grid, BallSpec, Ball) -> Box<dyn Engine>;
 
-const ENGINES: [(&str, Make); 2] = [
-    ("continuous", |planes, spec, ball| match Continuous::new(planes, spec, ball, TICK_S) {
+fn exact(planes: &Arc<SortedPlanes>, spec: BallSpec, ball: Ball) -> Box<dyn Engine> {
+    match Continuous::new(planes.clone(), spec, ball, TICK_S) {
         Ok(engine) => Box::new(engine),
         Err(error) => panic!("{error}"),
-    }),
-    ("published", |planes, spec, ball| match Published::new(planes, spec, ball) {
+    }
+}
+
+/// The exact engine, the same without directories, and the report's.
+const ENGINES: [(&str, Make); 3] = [
+    ("continuous", |grid, spec, ball| exact(&grid.planes, spec, ball)),
+    ("continuous, bisection alone", |grid, spec, ball| exact(&grid.plain, spec, ball)),
+    ("published", |grid, spec, ball| match Published::new(grid.planes.clone(), spec, ball) {
         Ok(engine) => Box::new(engine),
         Err(error) => panic!("{error}"),
     }),
 ];
+
+/// Directories change no bit of the motion.
+fn assert_agreement(grid: &Grid) {
+    let start = Ball { position: grid.centre(0), velocity: Vector2::new(3.0, 5.0) };
+    let mut engines = [&grid.planes, &grid.plain].map(|planes| exact(planes, BallSpec::default(), start));
+    for pull in turning_pulls().into_iter().cycle().take(2000) {
+        let [one, other] = engines.each_mut().map(|engine| {
+            tick(engine.as_mut(), pull * 5.0);
+            engine.ball()
+        });
+        assert_eq!(one, other);
+    }
+}
 
 fn tick(engine: &mut dyn Engine, pull: Vector2<f64>) -> u32 {
     match engine.tick(black_box(pull)) {
@@ -102,7 +124,7 @@ fn coherent(criterion: &mut Criterion, grids: &[Grid]) {
         for (name, make) in ENGINES {
             let middle = grid.side / TILE / 2 * TILE + TILE / 2;
             let start = Ball::at(grid.centre(middle * grid.side + middle));
-            let mut engine = make(grid.planes.clone(), BallSpec::default(), start);
+            let mut engine = make(grid, BallSpec::default(), start);
             group.throughput(Throughput::Elements(pulls.len() as u64));
             group.bench_function(BenchmarkId::new(name, grid.planes.len()), |bencher| {
                 bencher.iter(|| pulls.iter().map(|pull| tick(engine.as_mut(), *pull)).sum::<u32>());
@@ -120,7 +142,7 @@ fn random(criterion: &mut Criterion, grids: &[Grid]) {
             let mut engines: Vec<_> = (0..N_BALLS)
                 .map(|n| {
                     let cell = n.wrapping_mul(0x9e37_79b9_7f4a_7c15) % (grid.side * grid.side);
-                    make(grid.planes.clone(), BallSpec::default(), Ball::at(grid.centre(cell)))
+                    make(grid, BallSpec::default(), Ball::at(grid.centre(cell)))
                 })
                 .collect();
             let pulls = turning_pulls();
@@ -145,7 +167,7 @@ fn speed(criterion: &mut Criterion, grid: &Grid) {
         for (name, make) in ENGINES {
             let spec = BallSpec { restitution: 1.0, ..BallSpec::default() };
             let start = Ball { position: grid.centre(0), velocity: Vector2::new(0.6, 0.8) * speed };
-            let mut engine = make(grid.planes.clone(), spec, start);
+            let mut engine = make(grid, spec, start);
             let n_hits: u32 = (0..1000).map(|_| tick(engine.as_mut(), Vector2::zeros())).sum();
             let hits_a_tick = format!("{:.2} hits a tick", f64::from(n_hits) / 1000.0);
             group.bench_function(BenchmarkId::new(format!("{name} x{speed}"), hits_a_tick), |bencher| {
@@ -159,6 +181,7 @@ fn benches(criterion: &mut Criterion) {
     let grids: Result<Vec<_>, _> = N_TILES.into_iter().map(Grid::new).collect();
     match grids {
         Ok(grids) => {
+            grids.iter().for_each(assert_agreement);
             coherent(criterion, &grids);
             random(criterion, &grids);
             speed(criterion, &grids[1]);

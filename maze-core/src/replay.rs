@@ -13,7 +13,7 @@ const MAGIC: &[u8; 8] = b"MAZERUN\n";
 pub const VERSION: u32 = 2;
 
 /// Longest recording: ten hours of ticks of 0.03 s, 5 MB.
-const MAX_TICKS: usize = 1_200_000;
+pub const MAX_TICKS: usize = 1_200_000;
 
 /// Longest name of a source or an engine (bytes).
 const MAX_NAME: usize = 4096;

@@ -5,13 +5,10 @@ use crate::files;
 use crate::game::{EngineKind, Game};
 use crate::source::{MazeArguments, Source};
 use clap::Args;
-use maze_core::replay::{Recording, maze_hash, state_hash};
+use maze_core::replay::MAX_TICKS;
 use maze_core::{Autopilot, Event, Phase};
 use serde_json::json;
 use std::path::PathBuf;
-
-/// After so many ticks (ten hours of play) the autopilot gives up.
-const MAX_TICKS: usize = 1_200_000;
 
 /// The autopilot tilts no further than a player may.
 const MAX_TILT_DEGREES: f64 = 20.0;
@@ -41,26 +38,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
         return Err(Failure::not_held(format!("{}: no way leads from start to goal", source.title())));
     };
-    let (mut tilts, mut n_bounces) = (Vec::new(), 0_u64);
+    let mut n_bounces = 0_u64;
     let mut deepest_penetration = 0.0_f64;
-    while game.phase() != Phase::Finished && tilts.len() < MAX_TICKS {
+    // The autopilot gives up where a recording is full.
+    while game.phase() != Phase::Finished && game.n_played() < MAX_TICKS {
         let tilt = autopilot.tilt(game.ball());
         let events = game.tick(tilt)?;
         n_bounces += events.iter().map(|event| u64::from(matches!(event, Event::Bounced(_)))).sum::<u64>();
         deepest_penetration = deepest_penetration.max(game.last_tick().deepest_penetration);
-        tilts.push(tilt);
     }
-    let (finished, n_ticks) = (game.phase() == Phase::Finished, tilts.len());
+    let (finished, n_ticks) = (game.phase() == Phase::Finished, game.n_played());
     if let Some(path) = &arguments.record {
-        let recording = Recording {
-            source: source.words()?,
-            maze_hash: maze_hash(game.maze()),
-            engine: arguments.engine.name().to_owned(),
-            constants: game.constants(),
-            tilts,
-            final_hash: state_hash(game.ball()),
-        };
-        files::write_whole(path, &recording.to_bytes())?;
+        files::write_whole(path, &game.recording(&source)?.to_bytes())?;
     }
     files::print(&match arguments.json {
         true => format!(

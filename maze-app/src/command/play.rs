@@ -29,6 +29,9 @@ pub(crate) struct Arguments {
     /// Write one JSON line a tick: tick, orientation, ball, camera distance, phase
     #[arg(long, value_name = "FILE")]
     state_log: Option<PathBuf>,
+    /// Write the run at the goal, for `maze-app replay`; without a goal reached, what was played last
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
     /// End by itself after this time
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     exit_after: Option<Duration>,
@@ -52,11 +55,15 @@ pub(crate) struct Setup {
     pub(crate) engine: EngineKind,
     pub(crate) max_tilt_rad: f64,
     pub(crate) state_log: Option<PathBuf>,
+    pub(crate) record: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let source = Source::new(&arguments.maze);
+    if let Some(path) = &arguments.record {
+        files::expect_directory_of(path)?;
+    }
     let maze = source.load()?;
     let textures = files::textures(arguments.textures.as_deref())?;
     let event_loop = app::event_loop()?;
@@ -67,6 +74,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         engine: arguments.engine,
         max_tilt_rad,
         state_log: arguments.state_log,
+        record: arguments.record,
         exit_after: arguments.exit_after,
     };
     App::new(setup, maze)?.run(event_loop)
