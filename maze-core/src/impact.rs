@@ -240,6 +240,28 @@ pub fn first(
     until_s: f64,
     ignored: Option<Vector2<f64>>,
 ) -> Option<Impact> {
+    search(planes, path, radius, until_s, ignored, &mut |_| {})
+}
+
+/// What a search looks at.
+pub(crate) enum Visit {
+    /// A group, and the offsets within which the circle can touch a plane of it.
+    Group { facing: Facing, offsets: [f64; 2] },
+    /// A row, and the range along it within which the circle can touch it.
+    Row { offset: f64, window: [f64; 2] },
+    /// A plane that is handed to the impact test.
+    Plane(Plane),
+}
+
+/// [`first`], which shows what it looks at; nothing of that remains where nobody watches.
+pub(crate) fn search(
+    planes: &SortedPlanes,
+    path: &Path,
+    radius: f64,
+    until_s: f64,
+    ignored: Option<Vector2<f64>>,
+    watch: &mut impl FnMut(Visit),
+) -> Option<Impact> {
     let mut first = First::new(path, radius, until_s);
     let (start, end) = (path.velocity, path.velocity_at(until_s));
     // What the faster coordinate meets shortens the way for the other one.
@@ -254,7 +276,9 @@ pub fn first(
         }
         let reach = first.reach();
         let [low, high] = first.ranges[axis];
-        for row in planes.rows_within(facing, [low - reach, high + reach]) {
+        let offsets = [low - reach, high + reach];
+        watch(Visit::Group { facing, offsets });
+        for row in planes.rows_within(facing, offsets) {
             // A touch found meanwhile shortens the time, and with it the way.
             let [low, high] = first.ranges[axis];
             let (is_above, is_below) = (high < row.offset() - reach, row.offset() + reach < low);
@@ -264,7 +288,10 @@ pub fn first(
                 }
                 continue;
             }
-            for candidate in row.within(first.window(axis, row.offset())) {
+            let window = first.window(axis, row.offset());
+            watch(Visit::Row { offset: row.offset(), window });
+            for candidate in row.within(window) {
+                watch(Visit::Plane(candidate.plane));
                 first.offer(&candidate, ignored);
             }
         }

@@ -58,12 +58,13 @@ mod section;
 mod slice;
 mod sorted_planes;
 pub mod surface;
+pub mod trace;
 mod winding;
 
 pub use assemble::{AssembleError, AssembleOptions};
 pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
-pub use engine::{Continuous, Engine, Published, Tick};
+pub use engine::{Continuous, Engine, Hit, Published, Tick};
 pub use gravity::Tilt;
 pub use layout::Layout;
 pub use maze::{Bounds, Ignored, Maze};

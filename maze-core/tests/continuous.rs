@@ -405,6 +405,28 @@ fn with_rolling_resistance_energy_only_falls() {
     }
 }
 
+#[test]
+fn an_observer_sees_every_hit_and_changes_none() {
+    let maze = random_maze(9);
+    let new = || Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
+    let (mut watched, mut alone, mut noise) = (new(), new(), Noise(9));
+    for _ in 0..3000 {
+        let pull = noise.vector() * 4.0;
+        let mut n_seen = 0;
+        let tick = watched
+            .tick_observed(pull, &mut |hit| {
+                n_seen += 1;
+                let from_wall = hit.after.position - hit.point;
+                assert!((from_wall - hit.normal * R).norm() < 1.0e-12, "{hit:?}");
+                assert!(hit.before.velocity.dot(&hit.normal) <= 0.0, "{hit:?}");
+                assert!(0.0 <= hit.after.velocity.dot(&hit.normal), "{hit:?}");
+            })
+            .unwrap();
+        assert_eq!(tick, alone.tick(pull).unwrap());
+        assert_eq!((watched.ball(), n_seen), (alone.ball(), tick.n_hits));
+    }
+}
+
 /// A quarter turn or a mirror image, of points and of planes.
 struct Symmetry {
     point: fn(Vector2<f64>) -> Vector2<f64>,

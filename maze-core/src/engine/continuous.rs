@@ -1,7 +1,7 @@
 //! The exact engine: within a tick the ball moves on a parabola from touch to touch, without substeps or penetration.
 
 use super::pivot::{self, Pivot};
-use super::{Engine, Tick};
+use super::{Engine, Hit, Log, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact;
 use crate::impact::{self, Impact, Path, TOUCH, Touched};
@@ -113,7 +113,7 @@ impl Continuous {
     }
 
     /// Flies or slides until the next event or for `left_s`; returns the time that passed.
-    fn fly(&mut self, acceleration: Vector2<f64>, left_s: f64, tick: &mut Tick) -> f64 {
+    fn fly(&mut self, acceleration: Vector2<f64>, left_s: f64, log: &mut Log) -> f64 {
         let path = self.path(acceleration);
         let impact = impact::first(&self.planes, &path, self.radius(), left_s, None);
         let until_s = impact.map_or(left_s, |impact| impact.time_s);
@@ -130,51 +130,54 @@ impl Continuous {
         self.advance(&path, until_s);
         match impact {
             Some(Impact { touched: Touched::Face(face), .. }) => {
-                self.bounce_off_face(face, acceleration, tick)
+                self.bounce_off_face(face, acceleration, log)
             }
             Some(Impact { touched: Touched::Corner(point), .. }) => {
-                self.bounce_off_corner(point, acceleration, tick);
+                self.bounce_off_corner(point, acceleration, log);
             }
             None => {}
         }
         until_s
     }
 
-    fn bounce_off_face(&mut self, face: Plane, acceleration: Vector2<f64>, tick: &mut Tick) {
-        let (axis, sign) = (face.facing.axis(), face.facing.sign());
+    fn bounce_off_face(&mut self, face: Plane, acceleration: Vector2<f64>, log: &mut Log) {
+        let (axis, sign, before) = (face.facing.axis(), face.facing.sign(), self.ball);
         // Exactly at the radius: a gap of one rounding would make ghost touches of the corners.
         self.ball.position[axis] = face.offset + sign * self.radius();
         let speed = -self.ball.velocity[axis] * sign;
         let rebound = self.spec.restitution * speed;
-        tick.note_hit(speed);
         if is_rest(rebound, acceleration[axis] * sign) {
             self.ball.velocity[axis] = 0.0;
             self.support.faces[axis] = Some(face);
-            tick.n_rests += 1;
+            log.tick.n_rests += 1;
         } else {
             self.ball.velocity[axis] = sign * rebound;
         }
+        let point = face.facing.point(face.offset, before.position[1 - axis]);
+        let normal = face.facing.normal();
+        log.note_hit(speed, &Hit { point, normal, penetration: 0.0, before, after: self.ball });
     }
 
-    fn bounce_off_corner(&mut self, point: Vector2<f64>, acceleration: Vector2<f64>, tick: &mut Tick) {
-        let Some(normal) = (self.ball.position - point).try_normalize(0.0) else { return };
+    fn bounce_off_corner(&mut self, point: Vector2<f64>, acceleration: Vector2<f64>, log: &mut Log) {
+        let before = self.ball;
+        let Some(normal) = (before.position - point).try_normalize(0.0) else { return };
         self.ball.position = point + normal * self.radius();
         let speed = -self.ball.velocity.dot(&normal);
         let rebound = self.spec.restitution * speed;
-        tick.note_hit(speed);
-        tick.n_corner_hits += 1;
+        log.tick.n_corner_hits += 1;
         self.ball.velocity += normal * (speed + rebound);
         // A face that carried the ball either gets it back at once, or has lost it.
         self.support.faces = [None; 2];
         if is_rest(rebound, acceleration.dot(&normal)) {
             self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
             self.support.corner = Pivot::at(&self.planes, point);
-            tick.n_rests += 1;
+            log.tick.n_rests += 1;
         }
+        log.note_hit(speed, &Hit { point, normal, penetration: 0.0, before, after: self.ball });
     }
 
     /// Rolls around a corner until the next event or for `left_s`; returns the time that passed.
-    fn roll(&mut self, pivot: Pivot, acceleration: Vector2<f64>, left_s: f64, tick: &mut Tick) -> f64 {
+    fn roll(&mut self, pivot: Pivot, acceleration: Vector2<f64>, left_s: f64, log: &mut Log) -> f64 {
         let roll = pivot.roll(&self.planes, self.ball, self.radius(), acceleration, left_s);
         self.ball = roll.ball;
         match roll.end {
@@ -187,8 +190,8 @@ impl Continuous {
             pivot::End::Hit(impact) => {
                 let before = self.ball.velocity;
                 match impact.touched {
-                    Touched::Face(face) => self.bounce_off_face(face, Vector2::zeros(), tick),
-                    Touched::Corner(point) => self.bounce_off_corner(point, Vector2::zeros(), tick),
+                    Touched::Face(face) => self.bounce_off_face(face, Vector2::zeros(), log),
+                    Touched::Corner(point) => self.bounce_off_corner(point, Vector2::zeros(), log),
                 }
                 // Pressed into the gap between the corner and what was hit: it stays there while the tick lasts.
                 let pull = acceleration.norm();
@@ -197,7 +200,7 @@ impl Continuous {
                 {
                     self.ball.velocity = Vector2::zeros();
                     self.support = Support { corner: Some(pivot), ..Support::default() };
-                    tick.n_rests += 1;
+                    log.tick.n_rests += 1;
                     return left_s;
                 }
                 self.support.corner = None;
@@ -207,18 +210,18 @@ impl Continuous {
     }
 
     /// Goes from event to event until the tick is over.
-    fn pass(&mut self, acceleration: Vector2<f64>, tick: &mut Tick) {
+    fn pass(&mut self, acceleration: Vector2<f64>, log: &mut Log) {
         let mut left_s = self.tick_s;
         for _ in 0..MAX_EVENTS {
             left_s -= match self.support.corner {
-                Some(pivot) => self.roll(pivot, acceleration, left_s, tick),
-                None => self.fly(acceleration, left_s, tick),
+                Some(pivot) => self.roll(pivot, acceleration, left_s, log),
+                None => self.fly(acceleration, left_s, log),
             };
             if left_s <= 0.0 {
                 return;
             }
         }
-        tick.dropped_s = left_s;
+        log.tick.dropped_s = left_s;
     }
 
     /// Whether rolling resistance keeps the ball where it is, on the floor or along what carries it.
@@ -228,7 +231,7 @@ impl Continuous {
     }
 
     /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first.
-    fn recover(&mut self, tick: &mut Tick) {
+    fn recover(&mut self, log: &mut Log) {
         for _ in 0..MAX_RECOVERIES {
             let centre = self.ball.position;
             let radius = self.radius();
@@ -244,8 +247,8 @@ impl Continuous {
             // In front, away from the closest point; behind, through the face.
             let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
             self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
-            tick.recovered = true;
-            tick.note_penetration(contact.penetration);
+            log.tick.recovered = true;
+            log.note_penetration(contact.penetration);
         }
     }
 }
@@ -257,6 +260,14 @@ fn is_rest(rebound: f64, normal_acceleration: f64) -> bool {
 
 impl Engine for Continuous {
     fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        self.tick_observed(acceleration, &mut |_| {})
+    }
+
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn FnMut(&Hit),
+    ) -> Result<Tick, OutOfRange> {
         let acceleration = acceleration * self.spec.rolling;
         let end = self.ball.velocity + acceleration * self.tick_s;
         if !end.iter().all(|value| value.is_finite()) {
@@ -268,19 +279,19 @@ impl Engine for Continuous {
                 "the acceleration"
             }));
         }
-        let mut tick = Tick { n_steps: 1, ..Tick::default() };
+        let mut log = Log { tick: Tick { n_steps: 1, ..Tick::default() }, observer };
         if self.is_placed {
-            self.recover(&mut tick);
+            self.recover(&mut log);
             self.is_placed = false;
         }
         self.release(acceleration);
         if self.is_held(acceleration) {
             self.ball.velocity = Vector2::zeros();
-            return Ok(tick);
+            return Ok(log.tick);
         }
-        self.pass(acceleration, &mut tick);
+        self.pass(acceleration, &mut log);
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
-        Ok(tick)
+        Ok(log.tick)
     }
 
     fn ball(&self) -> Ball {

@@ -33,19 +33,41 @@ pub struct Tick {
     pub dropped_s: f64,
 }
 
-impl Tick {
+/// One hit, as the engine saw it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The point of the wall that was touched.
+    pub point: Vector2<f64>,
+    /// Unit vector along which the ball was pushed out and reflected.
+    pub normal: Vector2<f64>,
+    /// How deep the ball was in the wall (units); 0 for an engine that meets walls exactly.
+    pub penetration: f64,
+    /// Before push-out and reflection.
+    pub before: Ball,
+    /// After both.
+    pub after: Ball,
+}
+
+/// What is noted while a tick is computed: the sums, and for who asks every hit.
+struct Log<'a> {
+    tick: Tick,
+    observer: &'a mut dyn FnMut(&Hit),
+}
+
+impl Log<'_> {
     /// Counts a hit with this normal speed (units/s).
-    fn note_hit(&mut self, speed: f64) {
-        self.n_hits += 1;
-        if self.hardest_hit_speed < speed {
-            self.hardest_hit_speed = speed;
+    fn note_hit(&mut self, speed: f64, hit: &Hit) {
+        self.tick.n_hits += 1;
+        if self.tick.hardest_hit_speed < speed {
+            self.tick.hardest_hit_speed = speed;
         }
+        (self.observer)(hit);
     }
 
     /// Remembers a penetration (units) when it is the deepest.
     fn note_penetration(&mut self, depth: f64) {
-        if self.deepest_penetration < depth {
-            self.deepest_penetration = depth;
+        if self.tick.deepest_penetration < depth {
+            self.tick.deepest_penetration = depth;
         }
     }
 }
@@ -59,6 +81,19 @@ pub trait Engine {
     /// # Errors
     /// An acceleration that is not finite; the ball stays as it was.
     fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange>;
+
+    /// [`Engine::tick`] that also shows each hit as it happens. An engine that cannot tell shows none.
+    ///
+    /// # Errors
+    /// As [`Engine::tick`].
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn FnMut(&Hit),
+    ) -> Result<Tick, OutOfRange> {
+        let _ = observer;
+        self.tick(acceleration)
+    }
 
     /// Where the ball is now.
     fn ball(&self) -> Ball;

@@ -1,7 +1,7 @@
 //! The report's method, step for step. Its weaknesses (corners reflect about a face's normal, push-out changes the
 //! energy, the cost grows with the speed) are kept and measured, not hidden.
 
-use super::{Engine, Tick};
+use super::{Engine, Hit, Log, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact::{self, Contact};
 use crate::plane::Facing;
@@ -49,17 +49,18 @@ impl Published {
     }
 
     /// Moves by `step_s`, then resolves what is overlapped.
-    fn step(&mut self, step_s: f64, tick: &mut Tick) {
+    fn step(&mut self, step_s: f64, log: &mut Log) {
         self.ball.position += self.ball.velocity * step_s;
         for _ in 0..MAX_CONTACTS_PER_STEP {
             let Some(contact) = self.next_contact() else { return };
-            let axis = contact.plane.facing.axis();
-            let normal_speed = self.ball.velocity[axis].abs();
-            self.ball = contact.respond(self.ball, &self.spec);
-            tick.note_hit(normal_speed);
-            tick.note_penetration(contact.penetration);
+            let (facing, before) = (contact.plane.facing, self.ball);
+            self.ball = contact.respond(before, &self.spec);
+            let Contact { closest: point, penetration, .. } = contact;
+            let hit = Hit { point, normal: facing.normal(), penetration, before, after: self.ball };
+            log.note_hit(before.velocity[facing.axis()].abs(), &hit);
+            log.note_penetration(penetration);
         }
-        tick.n_unresolved += u32::from(self.next_contact().is_some());
+        log.tick.n_unresolved += u32::from(self.next_contact().is_some());
     }
 }
 
@@ -79,6 +80,14 @@ fn steps_for(displacement: f64, radius: f64) -> (u32, f64) {
 
 impl Engine for Published {
     fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        self.tick_observed(acceleration, &mut |_| {})
+    }
+
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn FnMut(&Hit),
+    ) -> Result<Tick, OutOfRange> {
         let velocity = self.ball.velocity + acceleration * (self.spec.rolling * Self::TICK_S);
         let is_finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
         if !is_finite(acceleration) {
@@ -94,13 +103,14 @@ impl Engine for Published {
         self.ball.velocity = velocity;
         let displacement = velocity.norm() * Self::TICK_S;
         let (n_steps, dropped) = steps_for(displacement, self.spec.radius.units());
-        let mut tick = Tick { n_steps, dropped_s: dropped * Self::TICK_S, ..Tick::default() };
+        let tick = Tick { n_steps, dropped_s: dropped * Self::TICK_S, ..Tick::default() };
         let step_s = (Self::TICK_S - tick.dropped_s) / f64::from(n_steps);
+        let mut log = Log { tick, observer };
         for _ in 0..n_steps {
-            self.step(step_s, &mut tick);
+            self.step(step_s, &mut log);
         }
         self.ball.velocity = self.spec.slowed(self.ball.velocity, Self::TICK_S);
-        Ok(tick)
+        Ok(log.tick)
     }
 
     fn ball(&self) -> Ball {

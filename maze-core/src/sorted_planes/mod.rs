@@ -121,6 +121,11 @@ impl SortedPlanes {
         self.group(facing).rows.len()
     }
 
+    /// The distinct offsets of one group, ascending: one a row.
+    pub fn offsets(&self, facing: Facing) -> impl Iterator<Item = f64> {
+        self.group(facing).rows.iter().map(|row| row.offset)
+    }
+
     /// Whether a face somewhere ends without meeting another, as one side of a wall without thickness does.
     pub(crate) fn has_free_ends(&self) -> bool {
         self.has_free_ends
