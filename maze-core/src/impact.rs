@@ -60,6 +60,19 @@ impl Path {
         self.velocity + self.acceleration * time_s
     }
 
+    /// Least and greatest coordinate along one axis from the start to a time.
+    fn range_until(&self, axis: usize, until_s: f64) -> [f64; 2] {
+        let (from, speed, pull) = (self.position[axis], self.velocity[axis], self.acceleration[axis]);
+        let to = from + (speed + pull * (until_s / 2.0)) * until_s;
+        let [low, high] = if from < to { [from, to] } else { [to, from] };
+        if 0.0 <= speed * (speed + pull * until_s) {
+            return [low, high];
+        }
+        // The turn lies v² / 2a from the start.
+        let turn = from - speed * speed / (2.0 * pull);
+        [if turn < low { turn } else { low }, if high < turn { turn } else { high }]
+    }
+
     /// Least and greatest coordinate along one axis between two times.
     fn range(&self, axis: usize, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
         let (speed, pull) = (self.velocity[axis], self.acceleration[axis]);
@@ -160,13 +173,45 @@ struct First<'a> {
 
 impl<'a> First<'a> {
     fn new(path: &'a Path, radius: f64, until_s: f64) -> Self {
-        let ranges = [path.range(0, [0.0, until_s]), path.range(1, [0.0, until_s])];
+        let ranges = [path.range_until(0, until_s), path.range_until(1, until_s)];
         Self { path, radius, horizon_s: until_s, until_s, ranges, impact: None }
     }
 
     /// How far from the centre what is touched can be.
     fn reach(&self) -> f64 {
         self.radius * WIDENED
+    }
+
+    /// Row by row in the direction of motion, and in each row the planes that the circle passes while it is in reach.
+    fn search_group(
+        &mut self,
+        planes: &SortedPlanes,
+        facing: Facing,
+        ignored: Option<Vector2<f64>>,
+        watch: &mut impl FnMut(Visit),
+    ) {
+        let axis = facing.axis();
+        let reach = self.reach();
+        let [low, high] = self.ranges[axis];
+        let offsets = [low - reach, high + reach];
+        watch(Visit::Group { facing, offsets });
+        for row in planes.rows_within(facing, offsets) {
+            // A touch found meanwhile shortens the time, and with it the way.
+            let [low, high] = self.ranges[axis];
+            let (is_above, is_below) = (high < row.offset() - reach, row.offset() + reach < low);
+            if is_above || is_below {
+                if is_above == (facing.sign() < 0.0) {
+                    return; // and so are all that follow
+                }
+                continue;
+            }
+            let window = self.window(axis, row.offset());
+            watch(Visit::Row { offset: row.offset(), window });
+            for candidate in row.within(window) {
+                watch(Visit::Plane(candidate.plane));
+                self.offer(&candidate, ignored);
+            }
+        }
     }
 
     fn offer(&mut self, candidate: &Face, ignored: Option<Vector2<f64>>) {
@@ -231,8 +276,7 @@ fn rank(impact: &Impact) -> (f64, u8, f64, f64) {
 
 /// What a circle on a path touches first within `until_s`; a corner at exactly `ignored` is passed over.
 ///
-/// The search goes through the groups that oppose the motion, the faster coordinate first, row by row in its direction, and
-/// in each row through the intervals that the circle passes while the row is within its reach. Needs finite numbers.
+/// The search goes through the groups that oppose the motion, the faster coordinate first. Needs finite numbers.
 pub fn first(
     planes: &SortedPlanes,
     path: &Path,
@@ -264,36 +308,17 @@ pub(crate) fn search(
 ) -> Option<Impact> {
     let mut first = First::new(path, radius, until_s);
     let (start, end) = (path.velocity, path.velocity_at(until_s));
+    // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
+    let all = planes.has_free_ends();
     // What the faster coordinate meets shortens the way for the other one.
-    let is_steep = start.x * start.x < start.y * start.y;
-    let facings = if is_steep { Facing::ALL_Y_FIRST } else { Facing::ALL };
-    for facing in facings {
-        let (axis, sign) = (facing.axis(), facing.sign());
-        let opposes = start[axis] * sign < 0.0 || end[axis] * sign < 0.0;
-        // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
-        if !opposes && !planes.has_free_ends() {
-            continue;
+    let axes = if start.x * start.x < start.y * start.y { [1, 0] } else { [0, 1] };
+    for axis in axes {
+        let [plus, minus] = Facing::across(axis);
+        if all || start[axis] < 0.0 || end[axis] < 0.0 {
+            first.search_group(planes, plus, ignored, watch);
         }
-        let reach = first.reach();
-        let [low, high] = first.ranges[axis];
-        let offsets = [low - reach, high + reach];
-        watch(Visit::Group { facing, offsets });
-        for row in planes.rows_within(facing, offsets) {
-            // A touch found meanwhile shortens the time, and with it the way.
-            let [low, high] = first.ranges[axis];
-            let (is_above, is_below) = (high < row.offset() - reach, row.offset() + reach < low);
-            if is_above || is_below {
-                if is_above == (sign < 0.0) {
-                    break; // and so are all that follow
-                }
-                continue;
-            }
-            let window = first.window(axis, row.offset());
-            watch(Visit::Row { offset: row.offset(), window });
-            for candidate in row.within(window) {
-                watch(Visit::Plane(candidate.plane));
-                first.offer(&candidate, ignored);
-            }
+        if all || 0.0 < start[axis] || 0.0 < end[axis] {
+            first.search_group(planes, minus, ignored, watch);
         }
     }
     first.impact

@@ -19,9 +19,6 @@ impl Facing {
     /// All four, in the order of the report.
     pub const ALL: [Self; 4] = [Self::PlusX, Self::MinusX, Self::PlusY, Self::MinusY];
 
-    /// All four, those across y first.
-    pub(crate) const ALL_Y_FIRST: [Self; 4] = [Self::PlusY, Self::MinusY, Self::PlusX, Self::MinusX];
-
     /// As on the command line: `+x`, `-x`, `+y`, `-y`.
     pub fn name(self) -> &'static str {
         match self {
@@ -30,6 +27,11 @@ impl Facing {
             Self::PlusY => "+y",
             Self::MinusY => "-y",
         }
+    }
+
+    /// Those whose normal lies along an axis, the positive one first: 0 for x, else y.
+    pub(crate) const fn across(axis: usize) -> [Self; 2] {
+        if axis == 0 { [Self::PlusX, Self::MinusX] } else { [Self::PlusY, Self::MinusY] }
     }
 
     /// The coordinate along the normal: 0 for x, 1 for y. The face extends along the other one.

@@ -226,8 +226,9 @@ impl Continuous {
 
     /// Whether rolling resistance keeps the ball where it is, on the floor or along what carries it.
     fn is_held(&self, acceleration: Vector2<f64>) -> bool {
-        let pull = self.path(acceleration).acceleration;
-        self.support.corner.is_none() && self.spec.holds(self.ball.velocity, pull, self.tick_s)
+        0.0 < self.spec.resistance
+            && self.support.corner.is_none()
+            && self.spec.holds(self.ball.velocity, self.path(acceleration).acceleration, self.tick_s)
     }
 
     /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first.

@@ -58,7 +58,7 @@ impl Pivot {
     pub(super) fn at(planes: &SortedPlanes, point: Vector2<f64>) -> Option<Self> {
         let find =
             |facings: [Facing; 2]| facings.into_iter().find_map(|facing| planes.ending_at(facing, point));
-        let faces = [find([Facing::PlusX, Facing::MinusX]), find([Facing::PlusY, Facing::MinusY])];
+        let faces = [0, 1].map(|axis| find(Facing::across(axis)));
         faces.iter().any(Option::is_some).then_some(Self { point, faces })
     }
 

@@ -30,10 +30,7 @@ impl SortedPlanes {
 
     fn ends_of(&self, face: &Face) -> [End; 2] {
         let (facing, offset) = (face.plane.facing, face.plane.offset);
-        let [minus, plus] = match facing.axis() {
-            0 => [Facing::MinusY, Facing::PlusY],
-            _ => [Facing::MinusX, Facing::PlusX],
-        };
+        let [plus, minus] = Facing::across(1 - facing.axis());
         let end = |along: f64, on: Facing, back: Facing| {
             let meets = |other: Facing, is_met: &dyn Fn(f64, f64) -> bool| {
                 let row = self.rows_within(other, [along, along]).next();
