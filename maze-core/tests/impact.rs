@@ -100,6 +100,7 @@ proptest! {
         prop_assume!(!plan.is_inside(path.position) && !plan.faces().iter().any(overlaps));
         let truth = impact::first_scan(&sorted, &path, radius, until_s, None);
         prop_assert_eq!(impact::first(&sorted, &path, radius, until_s, None), truth);
+        prop_assert!(truth.is_none_or(|impact| (0.0..=until_s).contains(&impact.time_s)), "{:?}", truth);
         prop_assert_eq!(impact::first(&sorted.clone().without_directories(), &path, radius, until_s, None), truth);
         // Corners where faces meet inward are left out of both: nothing is touched there first.
         let times = Facing::ALL.into_iter().flat_map(|facing| sorted.planes(facing)).flat_map(|face| {
