@@ -47,7 +47,7 @@ pub(crate) fn doubled_area(corners: &[Vector3<f64>]) -> Vector3<f64> {
 pub struct PolygonMesh {
     positions: Vec<Vector3<f64>>,
     corners: Vec<u32>,
-    face_ends: Vec<usize>,
+    face_ends: Vec<u32>,
 }
 
 impl PolygonMesh {
@@ -60,15 +60,21 @@ impl PolygonMesh {
         usable.then_some(Self { positions, corners: Vec::new(), face_ends: Vec::new() })
     }
 
-    /// Appends a polygon; false (and nothing appended) when a corner is no position.
+    /// Makes room, so that faces can be appended without moving those that are there.
+    pub fn reserve(&mut self, n_faces: usize, n_corners: usize) {
+        self.face_ends.reserve_exact(n_faces);
+        self.corners.reserve_exact(n_corners);
+    }
+
+    /// Appends a polygon; false (and nothing appended) when a corner is no position, or at 2^32 corners.
     #[must_use]
     pub fn push_face(&mut self, corners: &[u32]) -> bool {
-        let known = corners.iter().all(|&corner| self.positions.get(corner as usize).is_some());
-        if known {
-            self.corners.extend_from_slice(corners);
-            self.face_ends.push(self.corners.len());
-        }
-        known
+        let known = corners.iter().all(|&corner| (corner as usize) < self.positions.len());
+        let end = u32::try_from(self.corners.len() + corners.len());
+        let (true, Ok(end)) = (known, end) else { return false };
+        self.corners.extend_from_slice(corners);
+        self.face_ends.push(end);
+        true
     }
 
     /// All corners' positions.
@@ -84,7 +90,7 @@ impl PolygonMesh {
     /// The polygons as indices into [`PolygonMesh::positions`].
     pub fn faces(&self) -> impl Iterator<Item = &[u32]> {
         let starts = std::iter::once(0).chain(self.face_ends.iter().copied());
-        starts.zip(&self.face_ends).map(|(start, &end)| &self.corners[start..end])
+        starts.zip(&self.face_ends).map(|(start, &end)| &self.corners[start as usize..end as usize])
     }
 
     /// The mesh with every face turned inside out.
