@@ -46,7 +46,7 @@ impl ReadArguments {
     }
 
     fn options(&self) -> AssembleOptions {
-        AssembleOptions { up_axis: self.up, ball_radius: self.ball_radius }
+        AssembleOptions { up_axis: self.up, ball_radius: self.ball_radius, ..AssembleOptions::default() }
     }
 
     /// Reads a maze file; the kind is told by its name's ending.

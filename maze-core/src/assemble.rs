@@ -1,44 +1,43 @@
 //! Polygons -> Maze: one way for files and for generated mazes.
 
 use crate::ball::{BallSpec, Radius};
+use crate::board;
+use crate::draft::SectionError;
 use crate::frame::Frame;
-use crate::maze::{Bounds, Ignored, Maze};
-use crate::plane::{Plane, PlaneError};
+use crate::maze::{Bounds, Maze};
+use crate::plane::PlaneError;
 use crate::polygons::{PolygonMesh, UpAxis};
-use crate::reach::{Distances, Reach};
-use crate::section::{Section, SectionError};
-use crate::slice::{self, FaceKind};
+use crate::reach::Reach;
+use crate::section::Section;
 use crate::sorted_planes::SortedPlanes;
-use crate::surface::{Surface, SurfaceBuilder, SurfaceMesh};
+use crate::survey::{MAX_OFF_AXIS_PART, Misfit, SIZES, Survey, extent};
+use crate::way::Way;
 use nalgebra::{Vector2, Vector3};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-/// Where between floor and wall tops the walls are cut: below the middle, where many files have a seam.
-const CUT_PART: f64 = 0.47;
-
-/// Share of the upright area that may be off axis (and is then ignored) before the file is no maze of axis-aligned walls.
-const MAX_OFF_AXIS_PART: f64 = 0.05;
-
-/// Upward faces nearer to the floor than this part of the wall height are floor, the others are tops of walls.
-const FLOOR_PART: f64 = 0.25;
-
 /// How near the ball's centre must come to the goal (units): within the goal's corridor, whatever the ball's size.
 const GOAL_RADIUS: f64 = 0.35;
 
-/// Extents of a file that can be computed with (file units): squares and products of areas stay finite and above 0.
-const SIZES: RangeInclusive<f64> = 1.0e-12..=1.0e12;
+/// An axis may point out of the board if the file is at most so many times as deep along it as along the flattest one.
+const MAX_DEPTH_RATIO: f64 = 2.0;
 
-/// Most separate regions with openings that are searched for the farthest pair; a maze has one.
-const MAX_REGIONS: usize = 16;
+/// Widths of a corridor (units) that a scale given by the user may lead to.
+const CORRIDORS: RangeInclusive<f64> = 0.1..=100.0;
 
 /// What the user may decide instead of us.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AssembleOptions {
     /// Else the axis of the smallest extent, y on a tie.
     pub up_axis: Option<UpAxis>,
     /// In corridors; else [`BallSpec::RADIUS`].
     pub ball_radius: Option<Radius>,
+    /// Maze units in a unit of the file; else such that a corridor is 1 wide.
+    pub scale: Option<f64>,
+    /// Where the ball's centre starts (maze units); else at an opening, or far from the goal.
+    pub start: Option<Vector2<f64>>,
+    /// Where it has to get (maze units); else at an opening, or far from the start.
+    pub goal: Option<Vector2<f64>>,
 }
 
 /// Why polygons are no maze.
@@ -61,13 +60,17 @@ pub enum AssembleError {
     },
     /// It is something else than a maze of axis-aligned walls.
     #[error(
-        "not a maze of axis-aligned walls: {percent:.1} % of the area that could be wall is off axis by more than 1 \
-         degree (at most {max:.0} % can be ignored)",
+        "not a maze of axis-aligned walls ({kind}): {percent:.1} % of the area that could be wall, {percent_of_all:.1} % of \
+         all, is off axis by more than 1 degree; expected at most {max:.0} %",
         max = 100.0 * MAX_OFF_AXIS_PART
     )]
     OffAxis {
+        /// What the off-axis part mostly is.
+        kind: Misfit,
         /// Share of the upright and slanted area.
         percent: f64,
+        /// Share of the area of all faces.
+        percent_of_all: f64,
     },
     /// The walls stand elsewhere than on the floor.
     #[error("no wall stands at height {height} above the floor (file units, along the up axis)")]
@@ -90,16 +93,52 @@ pub enum AssembleError {
         /// In corridors.
         radius: f64,
     },
+    /// The scale that was asked for makes corridors too narrow or too wide.
+    #[error(
+        "scale {scale} makes the corridors {corridor:.4} units wide: expected {low} to {high}",
+        low = CORRIDORS.start(), high = CORRIDORS.end()
+    )]
+    Scale {
+        /// Maze units in a unit of the file.
+        scale: f64,
+        /// The corridors' width with it.
+        corridor: f64,
+    },
+    /// Start or goal lies in a wall, too near to one, or beyond the board.
+    #[error(
+        "the ball does not fit at ({x}, {y}): expected a start and a goal within the corridors, as `info` prints them"
+    )]
+    NotFree {
+        /// Maze units.
+        x: f64,
+        /// Maze units.
+        y: f64,
+    },
 }
 
-/// What the faces of a mesh are; everything in file units, up axis turned to z.
-struct Survey {
-    mesh: PolygonMesh,
-    kinds: Vec<FaceKind>,
-    floor_z: f64,
-    top_z: f64,
-    has_floor: bool,
-    ignored: Vec<Ignored>,
+/// What the assembly of a maze is at; for a reader who waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Looking at every face.
+    Faces,
+    /// Summing up wall faces to the ground plan.
+    Plan,
+    /// Looking for start, goal and the way.
+    Way,
+    /// Triangles to draw.
+    Surface,
+}
+
+impl Stage {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Faces => "sorting faces",
+            Self::Plan => "drawing up the ground plan",
+            Self::Way => "looking for the way",
+            Self::Surface => "laying floor and walls",
+        }
+    }
 }
 
 impl Maze {
@@ -108,31 +147,75 @@ impl Maze {
     /// # Errors
     /// Polygons that are no maze of axis-aligned walls, and a ball that does not fit.
     pub fn from_polygons(mesh: &PolygonMesh, options: &AssembleOptions) -> Result<Self, AssembleError> {
-        let up_axis = options.up_axis.unwrap_or_else(|| flattest_axis(mesh.positions()));
-        let mut survey = Survey::new(mesh, up_axis)?;
-        let mut raw_section = Section::new(&survey.cut_walls()?)?;
+        Self::from_polygons_step_by_step(mesh, options, &mut |_| ())
+    }
+
+    /// [`Maze::from_polygons`] that tells each stage as it begins; stages come again where an axis was wrong.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn from_polygons_step_by_step(
+        mesh: &PolygonMesh,
+        options: &AssembleOptions,
+        tell: &mut dyn FnMut(Stage),
+    ) -> Result<Self, AssembleError> {
+        let axes = match options.up_axis {
+            Some(axis) => vec![axis],
+            None => flat_axes(mesh.positions()),
+        };
+        let mut first_error = None;
+        for axis in axes {
+            match Self::standing(mesh, axis, options, tell) {
+                // What the user asked for holds for this axis; without asking, another one is no answer.
+                Err(error) => first_error = first_error.or(Some(error)),
+                maze => return maze,
+            }
+        }
+        Err(first_error.unwrap_or(AssembleError::NoFaces))
+    }
+
+    fn standing(
+        mesh: &PolygonMesh,
+        up_axis: UpAxis,
+        options: &AssembleOptions,
+        tell: &mut dyn FnMut(Stage),
+    ) -> Result<Self, AssembleError> {
+        tell(Stage::Faces);
+        let mut survey = Survey::new(mesh, up_axis, false)?;
+        let cut = survey.cut_walls()?;
+        tell(Stage::Plan);
+        let mut raw_section = Section::new(&cut)?;
+        drop(cut);
         if raw_section.inverted {
             // The walls look inwards, and so does all the rest: floors look down.
-            survey = Survey::new(&mesh.reversed(), up_axis)?;
+            survey = Survey::new(mesh, up_axis, true)?;
             raw_section = Section::new(&survey.cut_walls()?)?;
         }
-        let doubtful_part = raw_section.doubtful_part;
+        let covers = board::Covers::new(&survey, &raw_section);
+        covers.note_roof(&mut survey);
         let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
-        let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor);
+        let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor, options.scale);
+        if let Some(scale) = options.scale.filter(|scale| !CORRIDORS.contains(&(scale * corridor))) {
+            return Err(AssembleError::Scale { scale, corridor: scale * corridor });
+        }
         let section = raw_section.map(|x| frame.x(x), |y| frame.y(y));
         let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
+        tell(Stage::Way);
         let ball_radius = options.ball_radius.unwrap_or(BallSpec::RADIUS);
         // What the ball does not fit through is a chink, not an opening.
         let mut openings = section.openings();
         openings.retain(|opening| 2.0 * ball_radius.units() <= opening.end - opening.start);
         let reach = Reach::new(&section, ball_radius.units());
         let way = Way::choose(&reach, &openings, ball_radius.units())
-            .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?;
+            .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?
+            .moved(&reach, options.start, options.goal)
+            .map_err(|place| AssembleError::NotFree { x: place.x, y: place.y })?;
         let wall_height = frame.z(survey.top_z);
+        tell(Stage::Surface);
         Ok(Self {
             planes: Arc::new(SortedPlanes::new(section.faces())?),
-            surface: survey.surface(&frame, bounds, &openings, wall_height),
+            surface: board::surface(&survey, &section, &frame, &openings, &covers),
             openings,
             bounds,
             wall_height,
@@ -143,220 +226,24 @@ impl Maze {
             solvable: way.solvable,
             reach: Arc::new(reach),
             up_axis,
+            turned: survey.turn.walls_x,
             scale: frame.scale(),
             has_floor: survey.has_floor,
             ignored: survey.ignored,
-            doubtful_part,
+            adjusted: survey.adjusted,
+            merged_within: section.merged_within.map(|within| within * frame.scale()),
+            thickened_to: section.thickened_to.map(|thickness| thickness * frame.scale()),
+            doubtful_part: section.doubtful_part,
         })
     }
 }
 
-/// A board is flat: the axis of the smallest extent, y (the custom of modelling programs) before z before x on a tie.
-fn flattest_axis(positions: &[Vector3<f64>]) -> UpAxis {
+/// A board is flat: the axis of the smallest extent, y (the custom of modelling programs) before z before x on a tie; then
+/// those along which the file is not much deeper.
+fn flat_axes(positions: &[Vector3<f64>]) -> Vec<UpAxis> {
     let extent = extent(positions);
-    let by_extent = [(extent.y, UpAxis::Y), (extent.z, UpAxis::Z), (extent.x, UpAxis::X)];
-    by_extent.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(UpAxis::Y, |(_, axis)| axis)
-}
-
-/// Size of the bounding box; 0 for nothing.
-fn extent(positions: &[Vector3<f64>]) -> Vector3<f64> {
-    let low = positions.iter().copied().reduce(|a, b| a.inf(&b)).unwrap_or_default();
-    let high = positions.iter().copied().reduce(|a, b| a.sup(&b)).unwrap_or_default();
-    high - low
-}
-
-impl Survey {
-    fn new(file_mesh: &PolygonMesh, up_axis: UpAxis) -> Result<Self, AssembleError> {
-        let mesh = file_mesh.map_positions(|position| up_axis.turned_to_z(position));
-        let size = extent(mesh.positions()).amax();
-        if size != 0.0 && !SIZES.contains(&size) {
-            return Err(AssembleError::Size { size });
-        }
-        let mut kinds = Vec::with_capacity(mesh.n_faces());
-        let mut areas = Vec::with_capacity(mesh.n_faces());
-        for face in mesh.faces() {
-            let (kind, area) = slice::classify(&corners(&mesh, face), size);
-            kinds.push(kind);
-            areas.push(area);
-        }
-        if kinds.is_empty() {
-            return Err(AssembleError::NoFaces);
-        }
-        let area_of = |wanted: fn(FaceKind) -> bool| {
-            kinds.iter().zip(&areas).filter(|(kind, _)| wanted(**kind)).map(|(_, area)| area).sum::<f64>()
-        };
-        let wall_area = area_of(|kind| matches!(kind, FaceKind::Wall(_)));
-        let off_axis_area = area_of(|kind| kind == FaceKind::OffAxis);
-        if MAX_OFF_AXIS_PART * (wall_area + off_axis_area) < off_axis_area {
-            let percent = 100.0 * off_axis_area / (wall_area + off_axis_area);
-            return Err(AssembleError::OffAxis { percent });
-        }
-        if wall_area <= 0.0 {
-            return Err(AssembleError::NoWalls { n_faces: kinds.len() });
-        }
-        let total: f64 = areas.iter().sum();
-        let ignored = [
-            (FaceKind::Down, "looks down: never seen and never met"),
-            (FaceKind::OffAxis, "off axis by more than 1 degree"),
-            (FaceKind::Degenerate, "no area"),
-        ];
-        let ignored = ignored.into_iter().filter_map(|(unused, reason)| {
-            let of_kind = || kinds.iter().zip(&areas).filter(|(kind, _)| **kind == unused);
-            let area_part = of_kind().map(|(_, area)| area).sum::<f64>() / total;
-            let n_faces = of_kind().count();
-            (0 < n_faces).then_some(Ignored { reason, n_faces, area_part })
-        });
-        let ignored = ignored.collect();
-        let (floor_z, top_z, has_floor) = levels(&mesh, &kinds, &areas);
-        Ok(Self { mesh, kinds, floor_z, top_z, has_floor, ignored })
-    }
-
-    fn faces(&self) -> impl Iterator<Item = (FaceKind, Vec<Vector3<f64>>)> {
-        self.kinds.iter().copied().zip(self.mesh.faces().map(|face| corners(&self.mesh, face)))
-    }
-
-    fn cut_walls(&self) -> Result<Vec<Plane>, AssembleError> {
-        let height = self.floor_z + CUT_PART * (self.top_z - self.floor_z);
-        let walls = self.faces().filter_map(|(kind, corners)| match kind {
-            FaceKind::Wall(facing) => Some(slice::cut(&corners, facing, height)),
-            _ => None,
-        });
-        let cut: Vec<Plane> = walls.flatten().collect();
-        let above_floor = height - self.floor_z;
-        if cut.is_empty() { Err(AssembleError::NothingCut { height: above_floor }) } else { Ok(cut) }
-    }
-
-    fn surface(&self, frame: &Frame, bounds: Bounds, openings: &[Plane], wall_height: f64) -> SurfaceMesh {
-        let mut builder = SurfaceBuilder::default();
-        let tops_from = self.floor_z + FLOOR_PART * (self.top_z - self.floor_z);
-        for (kind, corners) in self.faces() {
-            let surface = match kind {
-                FaceKind::Wall(_) => Surface::Wall,
-                FaceKind::Up if corners.iter().all(|corner| tops_from < corner.z) => Surface::Top,
-                FaceKind::Up => Surface::Floor,
-                _ => continue,
-            };
-            let corners: Vec<_> = corners.into_iter().map(|corner| frame.point(corner)).collect();
-            builder.polygon(surface, &corners);
-        }
-        if !self.has_floor {
-            builder.floor(bounds);
-        }
-        for opening in openings {
-            builder.threshold(opening, wall_height);
-        }
-        builder.finish()
-    }
-}
-
-fn corners(mesh: &PolygonMesh, face: &[u32]) -> Vec<Vector3<f64>> {
-    face.iter().map(|&corner| mesh.positions()[corner as usize]).collect()
-}
-
-/// Height of the floor, of the wall tops, and whether there is a floor at all.
-///
-/// The floor is the largest upward level from the walls' lower end to four fifths of their height, else their lower end.
-fn levels(mesh: &PolygonMesh, kinds: &[FaceKind], areas: &[f64]) -> (f64, f64, bool) {
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut upward: Vec<(f64, f64)> = Vec::new(); // (z, area)
-    for ((face, kind), area) in mesh.faces().zip(kinds).zip(areas) {
-        let heights = face.iter().map(|&corner| mesh.positions()[corner as usize].z);
-        match kind {
-            FaceKind::Wall(_) => heights.for_each(|z| {
-                low = if z < low { z } else { low };
-                high = if high < z { z } else { high };
-            }),
-            FaceKind::Up => upward.push((heights.clone().sum::<f64>() / heights.count() as f64, *area)),
-            _ => {}
-        }
-    }
-    let near = 1.0e-3 * (high - low);
-    upward.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let floor = upward
-        .chunk_by(|a, b| b.0 - a.0 <= near)
-        .filter(|level| low - near <= level[0].0 && level[0].0 < high - 0.2 * (high - low))
-        .map(|level| (level[level.len() / 2].0, level.iter().map(|(_, area)| area).sum::<f64>()))
-        .max_by(|a, b| a.1.total_cmp(&b.1));
-    match floor {
-        Some((z, _)) => (z, high, true),
-        None => (low, high, false),
-    }
-}
-
-/// Start and goal.
-struct Way {
-    start: Vector2<f64>,
-    goal: Vector2<f64>,
-    solvable: bool,
-}
-
-impl Way {
-    /// Two openings of the outer wall, the farthest apart of those joined by a way; with one opening, it is the goal and
-    /// the start is as far as can be; without any, the two ends of the longest way. `None` when the ball fits nowhere.
-    fn choose(reach: &Reach, openings: &[Plane], radius: f64) -> Option<Self> {
-        let doors: Vec<(Vector2<f64>, usize)> = openings
-            .iter()
-            .filter_map(|opening| {
-                let mut door = opening.facing.normal() * radius;
-                door[opening.facing.axis()] += opening.offset;
-                door[1 - opening.facing.axis()] = (opening.start + opening.end) / 2.0;
-                reach.cell_at(door).map(|cell| (door, cell))
-            })
-            .collect();
-        if let [first, second, ..] = doors[..] {
-            return Some(Self::between_doors(reach, &doors, [first.0, second.0]));
-        }
-        let (near_end, goal) = match doors.first() {
-            Some(&(door, cell)) => (cell, door),
-            None => {
-                let any = reach.largest_region()?;
-                let end = reach.distances_from(any).farthest();
-                (end, reach.middle(end))
-            }
-        };
-        let far_end = reach.middle(reach.distances_from(near_end).farthest());
-        Some(match doors.is_empty() {
-            true => Self::upper_left_first(far_end, goal, true),
-            false => Self { start: far_end, goal, solvable: true },
-        })
-    }
-
-    fn between_doors(reach: &Reach, doors: &[(Vector2<f64>, usize)], unjoined: [Vector2<f64>; 2]) -> Self {
-        let mut longest = None;
-        let mut seen = vec![false; doors.len()];
-        for _ in 0..MAX_REGIONS {
-            let Some(first) = seen.iter().position(|seen| !seen) else { break };
-            // Two sweeps: the farthest from anywhere is one end of the longest way (exact where ways do not branch).
-            let from_first = reach.distances_from(doors[first].1);
-            for (seen, (_, cell)) in seen.iter_mut().zip(doors) {
-                *seen |= from_first.to(*cell).is_finite();
-            }
-            let (_, one) = farthest_door(&from_first, doors);
-            let (distance, other) = farthest_door(&reach.distances_from(doors[one].1), doors);
-            if one != other && longest.is_none_or(|(known, _, _)| known < distance) {
-                longest = Some((distance, doors[one].0, doors[other].0));
-            }
-        }
-        match longest {
-            Some((_, from, to)) => Self::upper_left_first(from, to, true),
-            None => Self::upper_left_first(unjoined[0], unjoined[1], false),
-        }
-    }
-
-    /// Reading order: the higher one is the start, the left one when they are level.
-    fn upper_left_first(a: Vector2<f64>, b: Vector2<f64>, solvable: bool) -> Self {
-        let swap = a.y < b.y || (a.y == b.y && b.x < a.x);
-        let (start, goal) = if swap { (b, a) } else { (a, b) };
-        Self { start, goal, solvable }
-    }
-}
-
-/// Distance and index of the farthest door that has a way, the first one on a tie.
-fn farthest_door(distances: &Distances, doors: &[(Vector2<f64>, usize)]) -> (f64, usize) {
-    let reached = doors.iter().enumerate().map(|(index, (_, cell))| (distances.to(*cell), index));
-    reached
-        .filter(|(distance, _)| distance.is_finite())
-        .rev()
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .unwrap_or((0.0, 0))
+    let mut by_extent = [(extent.y, UpAxis::Y), (extent.z, UpAxis::Z), (extent.x, UpAxis::X)];
+    by_extent.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let deepest = MAX_DEPTH_RATIO * by_extent[0].0;
+    by_extent.into_iter().filter(|(depth, _)| *depth <= deepest).map(|(_, axis)| axis).collect()
 }

@@ -19,10 +19,17 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// `corridor` is the corridor's width in the file, greater than 0; floor and wall tops are its z coordinates.
-    pub(crate) fn new(section: &Section, [floor_z, top_z]: [f64; 2], corridor: f64) -> Self {
+    /// `corridor` is the corridor's width in the file, greater than 0; floor and wall tops are its z coordinates. `scale`
+    /// is the user's, in maze units a unit of the file.
+    pub(crate) fn new(
+        section: &Section,
+        [floor_z, top_z]: [f64; 2],
+        corridor: f64,
+        scale: Option<f64>,
+    ) -> Self {
         let [low, high] = section.corners();
-        let scale = if (corridor - 1.0).abs() < UNIT_SCALE { 1.0 } else { 1.0 / corridor };
+        let own_scale = if (corridor - 1.0).abs() < UNIT_SCALE { 1.0 } else { 1.0 / corridor };
+        let scale = scale.unwrap_or(own_scale);
         let height = (top_z - floor_z) * scale;
         let z_scale = if MAX_WALL_HEIGHT < height { MAX_WALL_HEIGHT / (top_z - floor_z) } else { scale };
         Self { middle: [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0), floor_z, scale, z_scale }

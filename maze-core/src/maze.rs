@@ -25,10 +25,10 @@ impl Bounds {
     }
 }
 
-/// Faces of a file that the maze does not use.
+/// Faces of a file that the maze does not use, or not as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ignored {
-    /// Why, in words.
+pub struct FaceNote {
+    /// Why, or how else, in words.
     pub reason: &'static str,
     /// How many.
     pub n_faces: usize,
@@ -67,8 +67,17 @@ pub struct Maze {
     pub scale: f64,
     /// Whether the file has a floor; else one was laid.
     pub has_floor: bool,
+    /// Where the walls' x axis points in the file, across its up axis, before they were turned back; unit length, (1, 0)
+    /// when they were not turned.
+    pub turned: Vector2<f64>,
     /// Faces that were not used, and why.
-    pub ignored: Vec<Ignored>,
+    pub ignored: Vec<FaceNote>,
+    /// Faces that were used otherwise than they are, and how.
+    pub adjusted: Vec<FaceNote>,
+    /// Wall coordinates nearer than this (units) were noise and became one.
+    pub merged_within: Option<f64>,
+    /// Walls of the file without thickness were made this thick (units).
+    pub thickened_to: Option<f64>,
     /// Part of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
     pub doubtful_part: f64,
 }

@@ -92,18 +92,4 @@ impl PolygonMesh {
         let starts = std::iter::once(0).chain(self.face_ends.iter().copied());
         starts.zip(&self.face_ends).map(|(start, &end)| &self.corners[start as usize..end as usize])
     }
-
-    /// The mesh with every face turned inside out.
-    pub(crate) fn reversed(&self) -> Self {
-        let mut reversed = Self { corners: Vec::with_capacity(self.corners.len()), ..self.clone() };
-        for face in self.faces() {
-            reversed.corners.extend(face.iter().rev());
-        }
-        reversed
-    }
-
-    /// The mesh with every position moved.
-    pub(crate) fn map_positions(&self, moved: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Self {
-        Self { positions: self.positions.iter().copied().map(moved).collect(), ..self.clone() }
-    }
 }

@@ -99,6 +99,28 @@ impl SurfaceBuilder {
         }
     }
 
+    /// Makes room for so many corners of triangles and quads.
+    pub(crate) fn reserve(&mut self, n_corners: usize) {
+        self.mesh.vertices.reserve_exact(n_corners);
+    }
+
+    /// A wall face from the floor up.
+    pub(crate) fn side(&mut self, plane: &Plane, height: f64) {
+        let axis = plane.facing.axis();
+        let mut corners = [(plane.start, 0.0), (plane.end, 0.0), (plane.end, height), (plane.start, height)]
+            .map(|(along, z)| {
+                let mut corner = Vector3::new(0.0, 0.0, z);
+                corner[axis] = plane.offset;
+                corner[1 - axis] = along;
+                corner
+            });
+        let looks = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))[axis];
+        if looks * plane.facing.sign() < 0.0 {
+            corners.reverse();
+        }
+        self.polygon(Surface::Wall, &corners);
+    }
+
     /// A floor under the whole maze.
     pub(crate) fn floor(&mut self, bounds: Bounds) {
         let corner = |x, y| Vector3::new(x, y, 0.0);

@@ -23,13 +23,16 @@ impl Coordinates {
         Self { values, tolerance }
     }
 
-    fn index_of(&self, value: f64) -> usize {
+    /// Fewer than 2^32: a file holds no more corners.
+    #[allow(clippy::cast_possible_truncation, reason = "see above")]
+    fn index_of(&self, value: f64) -> u32 {
         let above = self.values.partition_point(|known| *known < value - self.tolerance);
         let is_nearer = |index: usize| {
             let distance = |index: usize| (self.values[index] - value).abs();
             index + 1 < self.values.len() && distance(index + 1) < distance(index)
         };
-        if is_nearer(above) { above + 1 } else { above.min(self.values.len() - 1) }
+        let index = if is_nearer(above) { above + 1 } else { above.min(self.values.len() - 1) };
+        index as u32
     }
 }
 
@@ -37,9 +40,23 @@ impl Coordinates {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Edge {
     facing: Facing,
-    offset: usize,
-    along: usize,
+    offset: u32,
+    along: u32,
     change: i32,
+}
+
+impl Edge {
+    /// The point in the plan, and how many outlines, walls on their left, come to it less those that leave it.
+    pub(crate) fn point_and_turn(&self) -> ([u32; 2], i32) {
+        // A wall face that looks towards +x is passed upwards, one that looks towards +y to the left.
+        let ends_there = match self.facing {
+            Facing::PlusX | Facing::MinusY => -self.change,
+            Facing::MinusX | Facing::PlusY => self.change,
+        };
+        let point =
+            if self.facing.axis() == 0 { [self.offset, self.along] } else { [self.along, self.offset] };
+        (point, ends_there)
+    }
 }
 
 /// Starts and ends of all faces; a start and an end of the same row that meet cancel, so pieces become one.
@@ -68,8 +85,8 @@ pub(crate) fn used_coordinates(edges: &[Edge], coordinates: &[Coordinates; 2]) -
     let mut used = [0, 1].map(|axis: usize| vec![None; coordinates[axis].values.len()]);
     for edge in edges {
         let axis = edge.facing.axis();
-        used[axis][edge.offset] = Some(0);
-        used[1 - axis][edge.along] = Some(0);
+        used[axis][edge.offset as usize] = Some(0);
+        used[1 - axis][edge.along as usize] = Some(0);
     }
     for of_axis in &mut used {
         for (new, slot) in of_axis.iter_mut().filter(|slot| slot.is_some()).enumerate() {
@@ -104,9 +121,9 @@ pub(crate) fn runs(
             Some(*depth)
         });
         row.windows(2).zip(depths).filter_map(move |(pair, depth)| {
-            let index = |along: usize| used[1 - axis][along];
+            let index = |along: u32| used[1 - axis][along as usize];
             let across = index(pair[0].along)?..index(pair[1].along)?;
-            let step = used[axis][pair[0].offset]?;
+            let step = used[axis][pair[0].offset as usize]?;
             (depth != 0).then_some(FaceRun { axis, step, across, change: enters * depth })
         })
     })

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::source::ReadArguments;
 use clap::Args;
-use maze_core::{Facing, Maze, Plane};
+use maze_core::{FaceNote, Facing, Maze, Plane};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
@@ -84,9 +84,10 @@ fn by_facing(count: impl Fn(Facing) -> usize) -> Value {
 
 fn summary(maze: &Maze) -> Value {
     let point = |point: nalgebra::Vector2<f64>| json!([point.x, point.y]);
-    let ignored = maze.ignored.iter().map(|ignored| {
-        json!({ "reason": ignored.reason, "faces": ignored.n_faces, "area_part": ignored.area_part })
-    });
+    let notes = |notes: &[FaceNote]| {
+        let note = |note: &FaceNote| json!({ "reason": note.reason, "faces": note.n_faces, "area_part": note.area_part });
+        notes.iter().map(note).collect::<Vec<_>>()
+    };
     let openings = maze.openings.iter().map(|opening| {
         json!({ "facing": opening.facing.name(), "offset": opening.offset, "start": opening.start, "end": opening.end })
     });
@@ -104,7 +105,11 @@ fn summary(maze: &Maze) -> Value {
         "openings": openings.collect::<Vec<_>>(),
         "has_floor": maze.has_floor,
         "doubtful_part": maze.doubtful_part,
-        "ignored": ignored.collect::<Vec<_>>(),
+        "ignored": notes(&maze.ignored),
+        "adjusted": notes(&maze.adjusted),
+        "merged_within": maze.merged_within,
+        "thickened_to": maze.thickened_to,
+        "turned_degrees": turned_degrees(maze),
     })
 }
 
@@ -140,9 +145,35 @@ fn summary_text(maze: &Maze) -> String {
             100.0 * maze.doubtful_part
         ));
     }
-    lines.extend(maze.ignored.iter().map(|ignored| {
-        let percent = 100.0 * ignored.area_part;
-        format!("ignored      {} faces, {percent:.1} % of the area: {}", ignored.n_faces, ignored.reason)
-    }));
+    lines.extend(adjustments(maze));
     lines.join("\n") + "\n"
+}
+
+/// By how much the walls were turned in the file, counter-clockwise seen from above.
+fn turned_degrees(maze: &Maze) -> f64 {
+    maze.turned.y.atan2(maze.turned.x).to_degrees()
+}
+
+/// What of the file is not as it was.
+fn adjustments(maze: &Maze) -> Vec<String> {
+    let mut lines = Vec::new();
+    if maze.turned.y != 0.0 {
+        let degrees = turned_degrees(maze);
+        lines.push(format!(
+            "turned       the walls stand {degrees:.2} degrees off the file's axes: turned back"
+        ));
+    }
+    if let Some(within) = maze.merged_within {
+        lines.push(format!("merged       walls less than {within:.4} corridors out of line are in one line"));
+    }
+    if let Some(thickness) = maze.thickened_to {
+        lines.push(format!("thickened    walls without thickness are {thickness:.3} corridors thick"));
+    }
+    for (word, notes) in [("adjusted", &maze.adjusted), ("ignored", &maze.ignored)] {
+        lines.extend(notes.iter().map(|note| {
+            let percent = 100.0 * note.area_part;
+            format!("{word:<12} {} faces, {percent:.1} % of the area: {}", note.n_faces, note.reason)
+        }));
+    }
+    lines
 }

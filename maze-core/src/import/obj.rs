@@ -274,17 +274,12 @@ fn vertex(line: &Line) -> Result<Vector3<f64>, ObjError> {
 }
 
 /// The corners of a face, counted from 0. Indices count from 1 in the whole file, or back from the vertices so far.
-fn face(
-    line: &Line,
-    [n_so_far, n_vertices]: [usize; 2],
-    corners: &mut Vec<u32>,
-) -> Result<(), ObjError> {
+fn face(line: &Line, [n_so_far, n_vertices]: [usize; 2], corners: &mut Vec<u32>) -> Result<(), ObjError> {
     corners.clear();
     for word in line.arguments() {
         let vertex = word.split(|byte| *byte == b'/').next().unwrap_or_default();
         let index: Option<i64> = std::str::from_utf8(vertex).ok().and_then(|word| word.parse().ok());
-        let index = index
-            .ok_or_else(|| ObjError::Face { line: line.number, found: found(&line.content) })?;
+        let index = index.ok_or_else(|| ObjError::Face { line: line.number, found: found(&line.content) })?;
         let distance = usize::try_from(index.unsigned_abs()).ok();
         let absolute = match distance {
             Some(back) if index < 0 => n_so_far.checked_sub(back),
@@ -351,8 +346,7 @@ impl Counts {
     fn is_cut_off(&self, text: &[u8], n_unused: usize) -> bool {
         #[allow(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 vertices")]
         let unused_part = n_unused as f64 / self.n_vertices as f64;
-        let suspicious =
-            if text.ends_with(b"\n") { MAX_UNUSED_PART < unused_part } else { 0 < n_unused };
+        let suspicious = if text.ends_with(b"\n") { MAX_UNUSED_PART < unused_part } else { 0 < n_unused };
         0 < self.n_faces && suspicious && self.n_others == 0
     }
 }

@@ -1,0 +1,225 @@
+//! The board as it is drawn: the file's own faces where they show it, else the ground plan raised.
+
+use crate::frame::Frame;
+use crate::maze::{Bounds, FaceNote};
+use crate::plane::Plane;
+use crate::section::Section;
+use crate::slice::FaceKind;
+use crate::surface::{Surface, SurfaceBuilder, SurfaceMesh};
+use crate::survey::Survey;
+use nalgebra::{Vector2, Vector3};
+
+/// A lid over more than this part of the corridors is a roof.
+const ROOF_PART: f64 = 0.5;
+
+/// Where more than this part of the walls has no top in the file, tops are laid.
+const BARE_PART: f64 = 0.02;
+
+/// How far below the wall tops they lie (units): hidden where the file has some after all.
+const LAID_DROP: f64 = 0.005;
+
+/// Most rectangles of the plan looked at to find a roof: some seconds. Faces that overlap a thousandfold are no roof.
+const MAX_LOOKS: usize = 1 << 26;
+
+/// Most corners that are drawn as the file has them, and the most work to cut them into triangles (squared corners of
+/// polygons): a file with more is drawn from its ground plan. So many corners are 128 MiB of the 256 MiB that a graphics
+/// card takes in one buffer.
+const MAX_DRAWN_CORNERS: usize = 1 << 22;
+const MAX_CUTTING: usize = 1 << 28;
+
+/// A slanted face is wall when its normal rises less than this (sine), else it looks up or down.
+const SIN_STEEP: f64 = 0.7;
+
+/// What of the plan lies under upward faces above the walls' feet.
+pub(crate) struct Covers {
+    covered: Vec<bool>, // by cell, row by row
+    free_part: f64,
+    solid_part: f64,
+    roof: (usize, f64),
+}
+
+impl Covers {
+    /// Looks at every rectangle of the plan, which must be in file units.
+    pub(crate) fn new(survey: &Survey, section: &Section) -> Self {
+        let [n_x, n_y] = section.n_cells();
+        let mut covered = vec![false; n_x * n_y];
+        let (mut n_looks, mut roof) = (0, (0, 0.0));
+        let tops_from = survey.tops_from();
+        survey.each(|kind, corners| {
+            if kind != FaceKind::Up || corners.iter().any(|corner| corner.z <= tops_from) {
+                return;
+            }
+            let columns = within(&section.xs, corners.iter().map(|corner| corner.x));
+            let rows = within(&section.ys, corners.iter().map(|corner| corner.y));
+            n_looks += columns.len() * rows.len();
+            if MAX_LOOKS < n_looks {
+                return;
+            }
+            let mut is_over_free = false;
+            for j in rows {
+                for i in columns.clone() {
+                    let middle = Vector2::new(
+                        (section.xs[i] + section.xs[i + 1]) / 2.0,
+                        (section.ys[j] + section.ys[j + 1]) / 2.0,
+                    );
+                    if holds(corners, middle) {
+                        covered[j * n_x + i] = true;
+                        is_over_free |= !section.is_solid(i, j);
+                    }
+                }
+            }
+            if is_over_free {
+                let flat: f64 = crate::polygons::doubled_area(corners).norm() / 2.0;
+                roof = (roof.0 + 1, roof.1 + flat);
+            }
+        });
+        if MAX_LOOKS < n_looks {
+            return Self { covered, free_part: 0.0, solid_part: 1.0, roof };
+        }
+        let (mut areas, mut covered_areas) = ([0.0; 2], [0.0; 2]);
+        for j in 0..n_y {
+            for i in 0..n_x {
+                let area = (section.xs[i + 1] - section.xs[i]) * (section.ys[j + 1] - section.ys[j]);
+                let kind = usize::from(section.is_solid(i, j));
+                areas[kind] += area;
+                covered_areas[kind] += if covered[j * n_x + i] { area } else { 0.0 };
+            }
+        }
+        let [free_part, solid_part] = [0, 1].map(|kind| match areas[kind] {
+            0.0 => 0.0,
+            area => covered_areas[kind] / area,
+        });
+        Self { covered, free_part, solid_part, roof }
+    }
+
+    /// Notes a roof, if there is one, as ignored.
+    pub(crate) fn note_roof(&self, survey: &mut Survey) {
+        if self.has_roof() {
+            let (n_faces, area) = self.roof;
+            let area_part = area / survey.area;
+            survey.ignored.push(FaceNote {
+                reason: "a roof over the corridors: not drawn",
+                n_faces,
+                area_part,
+            });
+        }
+    }
+
+    fn has_roof(&self) -> bool {
+        ROOF_PART < self.free_part
+    }
+
+    /// Whether this cell, a solid one, needs a top.
+    fn is_bare(&self, cell: usize) -> bool {
+        self.has_roof() || (self.solid_part < 1.0 - BARE_PART && !self.covered[cell])
+    }
+}
+
+/// The cells whose middles lie between the lowest and the highest of some values.
+fn within(coordinates: &[f64], values: impl Iterator<Item = f64> + Clone) -> std::ops::Range<usize> {
+    let low = values.clone().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+    let high = values.fold(f64::NEG_INFINITY, |a, b| if a < b { b } else { a });
+    let first = coordinates.partition_point(|value| *value < low);
+    let last = coordinates.partition_point(|value| *value <= high);
+    // The cells at either end may still hold their middle.
+    let n_cells = coordinates.len() - 1;
+    let last = if last < n_cells { last } else { n_cells };
+    first.saturating_sub(1)..last
+}
+
+/// Whether a point of the plan lies in a polygon seen from above (by crossings to the right).
+fn holds(corners: &[Vector3<f64>], point: Vector2<f64>) -> bool {
+    let next = corners.iter().cycle().skip(1);
+    let crossed = corners.iter().zip(next).filter(|(a, b)| {
+        (a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * ((point.y - a.y) / (b.y - a.y))
+    });
+    crossed.count() % 2 == 1
+}
+
+/// The board in maze units; `section` is the plan in these.
+pub(crate) fn surface(
+    survey: &Survey,
+    section: &Section,
+    frame: &Frame,
+    openings: &[Plane],
+    covers: &Covers,
+) -> SurfaceMesh {
+    let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
+    let wall_height = frame.z(survey.top_z);
+    let (n_corners, cutting) = survey.drawing_costs();
+    let from_plan = section.thickened_to.is_some() || MAX_DRAWN_CORNERS < n_corners || MAX_CUTTING < cutting;
+    let mut builder = SurfaceBuilder::default();
+    if !from_plan {
+        builder.reserve(n_corners);
+        own_faces(survey, frame, covers.has_roof(), &mut builder);
+    }
+    let drop = if from_plan || covers.has_roof() { 0.0 } else { LAID_DROP };
+    let is_bare = |cell: usize| from_plan || covers.is_bare(cell);
+    raised_tops(section, is_bare, wall_height - drop, &mut builder);
+    if from_plan {
+        section.sides().for_each(|side| builder.side(&side, wall_height));
+    }
+    if from_plan || !survey.has_floor {
+        builder.floor(Bounds { low, high });
+    }
+    for opening in openings {
+        builder.threshold(opening, wall_height);
+    }
+    builder.finish()
+}
+
+/// The file's faces but for those that look down, and the roof and what is under it.
+fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut SurfaceBuilder) {
+    let tops_from = survey.tops_from();
+    let mut moved = Vec::new();
+    survey.each(|kind, corners| {
+        let is_high = || corners.iter().all(|corner| tops_from < corner.z);
+        let looks = match kind {
+            FaceKind::OffAxis => {
+                let doubled = crate::polygons::doubled_area(corners);
+                match doubled.z / doubled.norm() {
+                    rise if rise < -SIN_STEEP => FaceKind::Down,
+                    rise if SIN_STEEP < rise => FaceKind::Up,
+                    _ => FaceKind::OffAxis,
+                }
+            }
+            kind => kind,
+        };
+        let surface = match looks {
+            FaceKind::Wall(_) | FaceKind::OffAxis => Surface::Wall,
+            FaceKind::Up if is_high() && has_roof => return,
+            FaceKind::Up if is_high() => Surface::Top,
+            FaceKind::Up => Surface::Floor,
+            FaceKind::Down | FaceKind::Degenerate => return,
+        };
+        moved.clear();
+        moved.extend(corners.iter().map(|corner| frame.point(*corner)));
+        builder.polygon(surface, &moved);
+    });
+}
+
+/// Tops over what is solid and bare, in strips along x.
+fn raised_tops(
+    section: &Section,
+    is_bare: impl Fn(usize) -> bool,
+    height: f64,
+    builder: &mut SurfaceBuilder,
+) {
+    let [n_x, n_y] = section.n_cells();
+    for j in 0..n_y {
+        let needs_top = |i: usize| section.is_solid(i, j) && is_bare(j * n_x + i);
+        let mut i = 0;
+        while i < n_x {
+            let first = i;
+            while i < n_x && needs_top(i) {
+                i += 1;
+            }
+            if first < i {
+                let (x, y) = ([section.xs[first], section.xs[i]], [section.ys[j], section.ys[j + 1]]);
+                let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| Vector3::new(x[i], y[j], height));
+                builder.polygon(Surface::Top, &corners);
+            }
+            i += 1;
+        }
+    }
+}
