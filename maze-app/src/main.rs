@@ -8,6 +8,8 @@ mod failure;
 mod files;
 mod game;
 mod input;
+mod progress;
+mod sidecar;
 mod source;
 mod state_log;
 mod ui;

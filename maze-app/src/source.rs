@@ -2,6 +2,8 @@
 
 use crate::failure::Failure;
 use crate::files;
+use crate::progress::Progress;
+use crate::sidecar::Sidecar;
 use clap::Args;
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude, import, layout};
 use std::path::{Path, PathBuf};
@@ -45,25 +47,38 @@ impl ReadArguments {
         [radius, up].into_iter().flatten().collect()
     }
 
-    fn options(&self) -> AssembleOptions {
-        AssembleOptions { up_axis: self.up, ball_radius: self.ball_radius, ..AssembleOptions::default() }
+    /// Flags win over what stands beside the file.
+    fn options(&self, sidecar: &Sidecar) -> AssembleOptions {
+        AssembleOptions {
+            up_axis: self.up.or(sidecar.up),
+            ball_radius: self.ball_radius.or(sidecar.ball_radius),
+            scale: sidecar.scale,
+            start: sidecar.start,
+            goal: sidecar.goal,
+        }
     }
 
-    /// Reads a maze file; the kind is told by its name's ending.
+    /// Reads a maze file and the sidecar beside it; the kind is told by its name's ending.
     pub(crate) fn load(&self, path: &Path) -> Result<Maze, Failure> {
         if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
             return Err(Failure::in_file(path, "not a maze file: expected a name that ends in .obj"));
         }
-        let bytes = files::read(path)?;
-        let mesh = import::obj::read(&bytes).map_err(|error| Failure::in_file(path, error))?;
-        Maze::from_polygons(&mesh, &self.options()).map_err(|error| Failure::in_file(path, error))
+        let options = self.options(&Sidecar::beside(path)?);
+        let progress = Progress::of_file(path);
+        progress.tell("reading");
+        let in_file = |error: &dyn std::fmt::Display| Failure::in_file(path, error);
+        // The bytes are gone before the maze is put together: both are large.
+        let mesh = import::obj::read(&files::read(path)?).map_err(|error| in_file(&error))?;
+        Maze::from_polygons_step_by_step(&mesh, &options, &mut |stage| progress.tell(stage.name()))
+            .map_err(|error| in_file(&error))
     }
 
     /// The maze of a seed.
     pub(crate) fn generate(&self, size: GridSize, seed: u64) -> Result<Maze, Failure> {
         let layout =
             layout::recursive_backtracker(size.width, size.height, seed).map_err(Failure::bad_input)?;
-        Maze::from_polygons(&extrude::extrude(&layout), &self.options()).map_err(Failure::bad_input)
+        Maze::from_polygons(&extrude::extrude(&layout), &self.options(&Sidecar::default()))
+            .map_err(Failure::bad_input)
     }
 }
 
@@ -110,6 +125,14 @@ impl Source {
         match &self.kind {
             Kind::File(path) => self.read.load(path),
             Kind::Random { size, seed } => self.read.generate(*size, *seed),
+        }
+    }
+
+    /// The file it comes from.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        match &self.kind {
+            Kind::File(path) => Some(path),
+            Kind::Random { .. } => None,
         }
     }
 
@@ -176,11 +199,15 @@ pub(crate) fn parse_pixel_size(text: &str) -> Result<[u32; 2], String> {
 const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
 
 fn parse_radius(text: &str) -> Result<Radius, String> {
-    let radius = text.parse().ok().filter(|radius| RADII.contains(radius)).and_then(Radius::new);
-    radius.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
+    radius_in_range(text.parse().unwrap_or(f64::NAN))
 }
 
-fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
+pub(crate) fn radius_in_range(radius: f64) -> Result<Radius, String> {
+    let usable = Some(radius).filter(|radius| RADII.contains(radius)).and_then(Radius::new);
+    usable.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
+}
+
+pub(crate) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
     [UpAxis::X, UpAxis::Y, UpAxis::Z]
         .into_iter()
         .find(|axis| axis.name() == text)

@@ -2,8 +2,8 @@
 
 use crate::app::{self, App};
 use crate::failure::Failure;
-use crate::files;
 use crate::game::EngineKind;
+use crate::sidecar;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use maze_render::TextureSet;
@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         files::expect_directory_of(path)?;
     }
     let maze = source.load()?;
-    let textures = files::textures(arguments.textures.as_deref())?;
+    let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let event_loop = app::event_loop()?;
     let max_tilt_rad = arguments.max_tilt.to_radians();
     let setup = Setup {

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::game::{EngineKind, Game};
+use crate::sidecar;
 use crate::source::{ReadArguments, parse_pixel_size};
 use crate::ui::to_points;
 use clap::Args;
@@ -63,7 +64,7 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
-    let textures = files::textures(arguments.textures.as_deref())?;
+    let textures = sidecar::textures(arguments.textures.as_deref(), Some(&arguments.file))?;
     let mut game = Game::new(arguments.read.load(&arguments.file)?, arguments.engine)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;

@@ -1,0 +1,56 @@
+//! What a long load is at, on a terminal that somebody watches.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Nobody needs to be told before.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// Time between two pictures of the spinner.
+const BEAT: Duration = Duration::from_millis(100);
+
+/// A spinner on stderr with the stage of the work; gone when dropped. Nothing at all where stderr is no terminal.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    waiting: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    pub(crate) fn of_file(path: &Path) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        if !std::io::stderr().is_terminal() {
+            return Self { bar, waiting: None };
+        }
+        bar.set_prefix(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg} ({elapsed})") {
+            bar.set_style(style);
+        }
+        let (done, is_done) = channel();
+        let shown = bar.clone();
+        let thread = std::thread::spawn(move || {
+            if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                shown.set_draw_target(ProgressDrawTarget::stderr());
+                shown.enable_steady_tick(BEAT);
+            }
+        });
+        Self { bar, waiting: Some((done, thread)) }
+    }
+
+    pub(crate) fn tell(&self, stage: &'static str) {
+        self.bar.set_message(stage);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((done, thread)) = self.waiting.take() {
+            drop(done);
+            // A thread that only waits and shows cannot have failed in a way that matters here.
+            let _ = thread.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}

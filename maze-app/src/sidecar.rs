@@ -1,0 +1,129 @@
+//! `NAME.toml` beside a maze file: what its author decides instead of the program.
+
+use crate::failure::Failure;
+use crate::files;
+use crate::source::{parse_up_axis, radius_in_range};
+use maze_core::{Radius, UpAxis};
+use maze_render::TextureSet;
+use nalgebra::Vector2;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use std::path::{Path, PathBuf};
+
+/// What a sidecar may say; everything is optional.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct Sidecar {
+    /// Axis of the file that points out of the board.
+    #[serde(deserialize_with = "up_axis")]
+    pub(crate) up: Option<UpAxis>,
+    /// Corridors in a unit of the file.
+    #[serde(deserialize_with = "scale")]
+    pub(crate) scale: Option<f64>,
+    /// In corridors.
+    #[serde(deserialize_with = "ball_radius")]
+    pub(crate) ball_radius: Option<Radius>,
+    /// As `info` prints it.
+    #[serde(deserialize_with = "point")]
+    pub(crate) start: Option<Vector2<f64>>,
+    /// As `info` prints it.
+    #[serde(deserialize_with = "point")]
+    pub(crate) goal: Option<Vector2<f64>>,
+    /// Directory with wall.bmp, floor.bmp and top.bmp, from the sidecar's own.
+    textures: Option<PathBuf>,
+}
+
+fn up_axis<'de, D: Deserializer<'de>>(value: D) -> Result<Option<UpAxis>, D::Error> {
+    parse_up_axis(&String::deserialize(value)?).map(Some).map_err(Error::custom)
+}
+
+fn ball_radius<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Radius>, D::Error> {
+    radius_in_range(f64::deserialize(value)?).map(Some).map_err(Error::custom)
+}
+
+fn scale<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
+    let scale = f64::deserialize(value)?;
+    let usable = scale.is_finite() && 0.0 < scale;
+    usable
+        .then_some(Some(scale))
+        .ok_or_else(|| Error::custom("expected corridors a unit of the file, above 0"))
+}
+
+fn point<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vector2<f64>>, D::Error> {
+    let point = <[f64; 2]>::deserialize(value)?;
+    let usable = point.iter().all(|value| value.is_finite());
+    usable.then_some(Some(point.into())).ok_or_else(|| Error::custom("expected two finite numbers"))
+}
+
+impl Sidecar {
+    /// The one beside a maze file; the default where there is none.
+    pub(crate) fn beside(maze: &Path) -> Result<Self, Failure> {
+        let path = maze.with_extension("toml");
+        if path == maze || !path.exists() {
+            return Ok(Self::default());
+        }
+        let text = files::read(&path)?;
+        let text = String::from_utf8(text).map_err(|_| Failure::in_file(&path, "expected text in UTF-8"))?;
+        let mut sidecar = Self::parse(&text)
+            .map_err(|(line, reason)| Failure::in_file(&path, format!("line {line}: {reason}")))?;
+        if let (Some(textures), Some(directory)) = (&mut sidecar.textures, path.parent()) {
+            *textures = directory.join(&*textures);
+        }
+        Ok(sidecar)
+    }
+
+    /// What is wrong comes with its line, counted from 1.
+    fn parse(text: &str) -> Result<Self, (usize, String)> {
+        toml::from_str(text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let line = text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
+            (line, error.message().to_owned())
+        })
+    }
+}
+
+/// The textures that a flag names, else those of the maze's sidecar, else ours.
+pub(crate) fn textures(flag: Option<&Path>, maze: Option<&Path>) -> Result<TextureSet, Failure> {
+    let from_sidecar = match (flag, maze) {
+        (None, Some(maze)) => Sidecar::beside(maze)?.textures,
+        _ => None,
+    };
+    files::textures(flag.or(from_sidecar.as_deref()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_may_be_said() {
+        let text = "up = 'z'\nscale = 2\nball_radius = 0.3\nstart = [1, -2.5]\ngoal = [0.0, 0.0]\ntextures = 'oak'\n";
+        let sidecar = Sidecar::parse(text).unwrap();
+        assert_eq!(sidecar.up, Some(UpAxis::Z));
+        assert_eq!((sidecar.scale, sidecar.ball_radius), (Some(2.0), Radius::new(0.3)));
+        assert_eq!((sidecar.start, sidecar.goal), (Some(Vector2::new(1.0, -2.5)), Some(Vector2::zeros())));
+        assert_eq!(sidecar.textures, Some(PathBuf::from("oak")));
+        assert_eq!(Sidecar::parse("# nothing\n"), Ok(Sidecar::default()));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_line() {
+        let cases = [
+            ("up = 'y'\n\ncolour = 'red'\n", 3, "unknown field `colour`"),
+            ("scale = 1\nup = 'w'\n", 2, "expected x, y or z"),
+            ("\nball_radius = 0.7\n", 2, "expected 0.02 to 0.49, in corridors"),
+            ("scale = -1", 1, "above 0"),
+            ("scale = nan", 1, "above 0"),
+            ("scale = 'big'", 1, "invalid type"),
+            ("up = 'y'\nstart = [1]\n", 2, "invalid length"),
+            ("goal = [inf, 0]", 1, "two finite numbers"),
+            ("up = 'y'\nup = 'z'\n", 2, "duplicate key"),
+            ("up = 'y'\n\n= 3\n", 3, ""),
+        ];
+        for (text, line, expected) in cases {
+            let (at, reason) = Sidecar::parse(text).unwrap_err();
+            assert_eq!(at, line, "{text}: {reason}");
+            assert!(reason.contains(expected), "{text}: {reason}");
+        }
+    }
+}
