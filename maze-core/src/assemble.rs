@@ -19,6 +19,9 @@ use std::sync::Arc;
 /// How near the ball's centre must come to the goal (units): within the goal's corridor, whatever the ball's size.
 const GOAL_RADIUS: f64 = 0.35;
 
+/// Thickness of the rim that is laid around a surface without one, as a part of the file's size.
+const RING_PART: f64 = 0.02;
+
 /// An axis may point out of the board if the file is at most so many times as deep along it as along the flattest one.
 const MAX_DEPTH_RATIO: f64 = 2.0;
 
@@ -186,12 +189,17 @@ impl Maze {
         tell(Stage::Plan);
         let mut raw_section = Section::new(&cut)?;
         drop(cut);
-        if raw_section.inverted {
+        let mut covers = board::Covers::new(&survey, &raw_section);
+        if covers.is_turned_over() {
+            let size = extent(mesh.positions()).amax();
+            raw_section = raw_section.turned_over(RING_PART * size);
+            covers = board::Covers::new(&survey, &raw_section);
+        } else if raw_section.inverted {
             // The walls look inwards, and so does all the rest: floors look down.
             survey = Survey::new(mesh, up_axis, true)?;
             raw_section = Section::new(&survey.cut_walls()?)?;
+            covers = board::Covers::new(&survey, &raw_section);
         }
-        let covers = board::Covers::new(&survey, &raw_section);
         covers.note_roof(&mut survey);
         let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
         let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor, options.scale);

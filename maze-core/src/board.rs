@@ -3,6 +3,7 @@
 use crate::frame::Frame;
 use crate::maze::{Bounds, FaceNote};
 use crate::plane::Plane;
+use crate::polygons::doubled_area;
 use crate::section::Section;
 use crate::slice::FaceKind;
 use crate::surface::{Surface, SurfaceBuilder, SurfaceMesh};
@@ -14,6 +15,9 @@ const ROOF_PART: f64 = 0.5;
 
 /// Where more than this part of the walls has no top in the file, tops are laid.
 const BARE_PART: f64 = 0.02;
+
+/// How much more area must speak against the plan than for it before walls and corridors change places.
+const CONTRARY_RATIO: f64 = 9.0;
 
 /// How far below the wall tops they lie (units): hidden where the file has some after all.
 const LAID_DROP: f64 = 0.005;
@@ -30,25 +34,34 @@ const MAX_CUTTING: usize = 1 << 28;
 /// A slanted face is wall when its normal rises less than this (sine), else it looks up or down.
 const SIN_STEEP: f64 = 0.7;
 
-/// What of the plan lies under upward faces above the walls' feet.
+/// What of the plan lies under which faces.
 pub(crate) struct Covers {
-    covered: Vec<bool>, // by cell, row by row
-    free_part: f64,
-    solid_part: f64,
+    /// By cell, row by row: has a top above it.
+    topped: Vec<bool>,
+    /// Part of the corridors, and of the walls, that has a top.
+    topped_parts: [f64; 2],
+    /// Faces above the corridors, and their area.
     roof: (usize, f64),
+    /// Area on which floor and tops are where corridors and walls are, and on which they are the other way round.
+    agrees: f64,
+    disagrees: f64,
 }
 
 impl Covers {
     /// Looks at every rectangle of the plan, which must be in file units.
     pub(crate) fn new(survey: &Survey, section: &Section) -> Self {
         let [n_x, n_y] = section.n_cells();
-        let mut covered = vec![false; n_x * n_y];
+        let [mut topped, mut lidded, mut floored] = [0; 3].map(|_| vec![false; n_x * n_y]);
         let (mut n_looks, mut roof) = (0, (0, 0.0));
         let tops_from = survey.tops_from();
         survey.each(|kind, corners| {
-            if kind != FaceKind::Up || corners.iter().any(|corner| corner.z <= tops_from) {
-                return;
-            }
+            let is_high = corners.iter().all(|corner| tops_from < corner.z);
+            let cover = match kind {
+                FaceKind::Up if is_high => &mut topped,
+                FaceKind::Up => &mut floored,
+                FaceKind::Down if is_high => &mut lidded,
+                _ => return,
+            };
             let columns = within(&section.xs, corners.iter().map(|corner| corner.x));
             let rows = within(&section.ys, corners.iter().map(|corner| corner.y));
             n_looks += columns.len() * rows.len();
@@ -63,33 +76,48 @@ impl Covers {
                         (section.ys[j] + section.ys[j + 1]) / 2.0,
                     );
                     if holds(corners, middle) {
-                        covered[j * n_x + i] = true;
+                        cover[j * n_x + i] = true;
                         is_over_free |= !section.is_solid(i, j);
                     }
                 }
             }
-            if is_over_free {
-                let flat: f64 = crate::polygons::doubled_area(corners).norm() / 2.0;
-                roof = (roof.0 + 1, roof.1 + flat);
+            if is_over_free && kind == FaceKind::Up && is_high {
+                roof = (roof.0 + 1, roof.1 + doubled_area(corners).norm() / 2.0);
             }
         });
-        if MAX_LOOKS < n_looks {
-            return Self { covered, free_part: 0.0, solid_part: 1.0, roof };
+        let mut covers = Self { topped, topped_parts: [0.0, 1.0], roof, agrees: 0.0, disagrees: 0.0 };
+        if n_looks <= MAX_LOOKS {
+            covers.sum_up(section, &lidded, &floored);
         }
-        let (mut areas, mut covered_areas) = ([0.0; 2], [0.0; 2]);
+        covers
+    }
+
+    fn sum_up(&mut self, section: &Section, lidded: &[bool], floored: &[bool]) {
+        let [n_x, n_y] = section.n_cells();
+        let (mut areas, mut topped_areas) = ([0.0; 2], [0.0; 2]);
         for j in 0..n_y {
             for i in 0..n_x {
+                let cell = j * n_x + i;
                 let area = (section.xs[i + 1] - section.xs[i]) * (section.ys[j + 1] - section.ys[j]);
-                let kind = usize::from(section.is_solid(i, j));
-                areas[kind] += area;
-                covered_areas[kind] += if covered[j * n_x + i] { area } else { 0.0 };
+                let is_solid = section.is_solid(i, j);
+                areas[usize::from(is_solid)] += area;
+                topped_areas[usize::from(is_solid)] += if self.topped[cell] { area } else { 0.0 };
+                // A cell with both, or with none, says nothing.
+                let is_high = self.topped[cell] || lidded[cell];
+                if is_high != floored[cell] {
+                    *(if is_high == is_solid { &mut self.agrees } else { &mut self.disagrees }) += area;
+                }
             }
         }
-        let [free_part, solid_part] = [0, 1].map(|kind| match areas[kind] {
+        self.topped_parts = [0, 1].map(|kind| match areas[kind] {
             0.0 => 0.0,
-            area => covered_areas[kind] / area,
+            area => topped_areas[kind] / area,
         });
-        Self { covered, free_part, solid_part, roof }
+    }
+
+    /// Whether the walls are where the plan is free: a surface without outer sides looks into its corridors all round.
+    pub(crate) fn is_turned_over(&self) -> bool {
+        CONTRARY_RATIO * self.agrees < self.disagrees
     }
 
     /// Notes a roof, if there is one, as ignored.
@@ -106,12 +134,12 @@ impl Covers {
     }
 
     fn has_roof(&self) -> bool {
-        ROOF_PART < self.free_part
+        ROOF_PART < self.topped_parts[0]
     }
 
     /// Whether this cell, a solid one, needs a top.
     fn is_bare(&self, cell: usize) -> bool {
-        self.has_roof() || (self.solid_part < 1.0 - BARE_PART && !self.covered[cell])
+        self.has_roof() || (self.topped_parts[1] < 1.0 - BARE_PART && !self.topped[cell])
     }
 }
 
@@ -176,7 +204,7 @@ fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut Surfa
         let is_high = || corners.iter().all(|corner| tops_from < corner.z);
         let looks = match kind {
             FaceKind::OffAxis => {
-                let doubled = crate::polygons::doubled_area(corners);
+                let doubled = doubled_area(corners);
                 match doubled.z / doubled.norm() {
                     rise if rise < -SIN_STEEP => FaceKind::Down,
                     rise if SIN_STEEP < rise => FaceKind::Up,

@@ -168,6 +168,23 @@ impl Section {
         }
     }
 
+    /// Walls and corridors in each other's place, in a ring of wall of this thickness.
+    pub(crate) fn turned_over(self, ring: f64) -> Self {
+        let [n_x, n_y] = self.n_cells();
+        let widened = |values: &[f64]| {
+            let ends = [values[0] - ring, values[values.len() - 1] + ring];
+            std::iter::once(ends[0]).chain(values.iter().copied()).chain(std::iter::once(ends[1])).collect()
+        };
+        let (xs, ys) = (widened(&self.xs), widened(&self.ys));
+        let mut solid = vec![true; (n_x + 2) * (n_y + 2)];
+        for j in 0..n_y {
+            for i in 0..n_x {
+                solid[(j + 1) * (n_x + 2) + i + 1] = !self.is_solid(i, j);
+            }
+        }
+        Self { xs, ys, solid, inverted: false, ..self }
+    }
+
     /// How thin the thin walls are, and how narrow the narrow corridors, noise aside: the widths below which lies a tenth of
     /// the area. `None` when nothing is solid, or free.
     pub(crate) fn thin_and_narrow(&self) -> [Option<f64>; 2] {

@@ -397,18 +397,35 @@ impl Levels {
         [low, high]
     }
 
+    /// How long the walls are, seen from above, that stand between two heights.
+    fn length_between(&self, from: f64, to: f64) -> f64 {
+        let within = |[low, high, area]: &[f64; 3]| {
+            let (low_in, high_in) =
+                (if *low < from { from } else { *low }, if to < *high { to } else { *high });
+            if low_in < high_in { area * (high_in - low_in) / (high - low) } else { 0.0 }
+        };
+        self.walls.iter().map(within).sum::<f64>() / (to - from)
+    }
+
     /// Height of the floor, of the wall tops, and whether there is a floor at all.
     ///
-    /// The floor is the largest upward level from the walls' lower end to four fifths of their height, else their lower end.
+    /// The floor is the largest upward level from the walls' lower end to four fifths of their height, or above that if more
+    /// wall stands on it than under it: the floor of a thick board. Else it is their lower end.
     fn floor_and_top(mut self) -> (f64, f64, bool) {
         let [low, high] = self.walls_low_and_high();
         let near = 1.0e-3 * (high - low);
         self.upward.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let is_floor = |z: f64| {
+            let is_high = high - 0.2 * (high - low) <= z;
+            low - near <= z
+                && z < high - near
+                && (!is_high || self.length_between(low, z) < self.length_between(z, high))
+        };
         let floor = self
             .upward
             .chunk_by(|a, b| b.0 - a.0 <= near)
-            .filter(|level| low - near <= level[0].0 && level[0].0 < high - 0.2 * (high - low))
             .map(|level| (level[level.len() / 2].0, level.iter().map(|(_, area)| area).sum::<f64>()))
+            .filter(|(z, _)| is_floor(*z))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         match floor {
             Some((z, _)) => (z, high, true),
