@@ -2,7 +2,7 @@
 
 use crate::plane::{Facing, Plane};
 use crate::section::Section;
-use crate::winding::{Coordinates, Edge, FaceRun, edges, runs, used_coordinates, votes};
+use crate::winding::{Coordinates, Edge, FaceRun, Repeats, edges, runs, used_coordinates, votes};
 
 /// Coordinates nearer than this part of the plan's size are one coordinate: between the rounding of a file with six
 /// decimals (1e-6) and the thinnest wall of a maze of a thousand corridors (1e-4).
@@ -20,10 +20,10 @@ const RIM_OF_CORRIDOR: f64 = 1.0 / 8.0;
 
 /// Most rectangles of any plan: 2048 x 2048, a maze of 1000 x 1000 cells.
 const MAX_CELLS: usize = 1 << 22;
-/// Most rectangles of the plan of a few faces, and how many more for each face: a maze of n x n cells has some 4 n²
-/// rectangles and n² faces. A rectangle takes some 60 bytes to find the way through, so no small file takes much memory.
+/// Most rectangles of the plan of a few faces, and how many more for each end of a face: a maze of n x n cells has some 4 n²
+/// rectangles and 3 n² ends. A rectangle takes some 60 bytes to find the way through, so no small file takes much memory.
 const MAX_CELLS_ANYWAY: usize = 1 << 19;
-const MAX_CELLS_PER_FACE: usize = 4;
+const MAX_CELLS_PER_EDGE: usize = 4;
 
 /// Thickness of walls that have none, as a part of the corridor.
 const THICKENED_PART: f64 = 0.1;
@@ -102,11 +102,24 @@ struct Draft {
 impl Section {
     /// Sums up wall faces. `raw` must not be empty.
     pub(crate) fn new(raw: &[Plane]) -> Result<Self, SectionError> {
+        let is_whole = |section: &Result<Self, SectionError>| {
+            section.as_ref().is_ok_and(|section| section.thickened_to.is_none())
+        };
+        let counted = Self::summed(raw, Repeats::Count);
+        if is_whole(&counted) {
+            return counted;
+        }
+        // Faces that are there several times for no reason may be what is wrong.
+        let once = Self::summed(raw, Repeats::Once);
+        if is_whole(&once) { once } else { counted }
+    }
+
+    fn summed(raw: &[Plane], repeats: Repeats) -> Result<Self, SectionError> {
         let size = size(raw);
-        let fine = Draft::new(raw, size * MERGE_PART)?;
+        let fine = Draft::new(raw, size * MERGE_PART, repeats)?;
         let within = fine.section.noise(size);
         let draft = if fine.section.narrowest_gap() < within {
-            let merged = Draft::new(raw, within)?;
+            let merged = Draft::new(raw, within, repeats)?;
             // Noise is merged to help; where that does not, the file is taken as it is.
             match (fine.fault(), merged.fault()) {
                 (None, Some(_)) => fine,
@@ -116,23 +129,22 @@ impl Section {
             fine
         };
         let fault = draft.fault();
-        let max = MAX_CELLS_ANYWAY + MAX_CELLS_PER_FACE * raw.len();
+        let max = MAX_CELLS_ANYWAY + MAX_CELLS_PER_EDGE * draft.edges.len();
         if fault.is_none() && max < draft.section.solid.len() {
             return Err(draft.section.too_fine(max));
         }
-        let sheets = match fault {
+        let (solid, sheets) = match fault {
             _ if LOOSE_PART < draft.loose_part() => {
                 if ENDLESS_PART < draft.endless_part {
                     return draft.with_ends();
                 }
-                raw.to_vec()
+                // Faces seen from one side must not count for winding; those of both sides cancel.
+                (&[][..], joined(raw))
             }
             None => return Ok(draft.finish()),
-            Some(SectionError::Sheets { .. }) => draft.sheets().2,
+            Some(SectionError::Sheets { .. }) => (raw, draft.sheets().2),
             Some(fault) => return Err(fault),
         };
-        // Faces of walls seen from one side must not count for winding; those of both sides cancel.
-        let solid = if sheets.len() == raw.len() { &[] } else { raw };
         thickened(solid, &sheets, size, max)?.ok_or(fault.unwrap_or(SectionError::Nothing))
     }
 
@@ -180,7 +192,7 @@ fn thickened(
     let with = |thickness: f64| {
         let boxes = sheets.iter().flat_map(|sheet| around(sheet, thickness / 2.0));
         let raw: Vec<Plane> = solid.iter().copied().chain(boxes).collect();
-        let draft = Draft::new(&raw, size * MERGE_PART)?;
+        let draft = Draft::new(&raw, size * MERGE_PART, Repeats::Count)?;
         match max_cells < draft.section.solid.len() {
             true => Err(draft.section.too_fine(max_cells)),
             false => Ok(draft.fault().is_none().then(|| draft.finish())),
@@ -191,6 +203,24 @@ fn thickened(
     };
     let thickness = THICKENED_PART * corridor;
     Ok(with(thickness)?.map(|section| Section { thickened_to: Some(thickness), ..section }))
+}
+
+/// Faces along the same lines, whichever way they look, as few as can be.
+fn joined(raw: &[Plane]) -> Vec<Plane> {
+    let mut joined = raw.to_vec();
+    joined.sort_unstable_by(|a, b| {
+        let axis = a.facing.axis().cmp(&b.facing.axis());
+        axis.then(a.offset.total_cmp(&b.offset)).then(a.start.total_cmp(&b.start))
+    });
+    joined.dedup_by(|next, known| {
+        let is_on = (next.facing.axis(), next.offset) == (known.facing.axis(), known.offset);
+        let touches = is_on && next.start <= known.end;
+        if touches && known.end < next.end {
+            known.end = next.end;
+        }
+        touches
+    });
+    joined
 }
 
 /// A wall that reaches so far beyond a face on every side.
@@ -208,7 +238,7 @@ fn around(sheet: &Plane, by: f64) -> [Plane; 4] {
 }
 
 impl Draft {
-    fn new(raw: &[Plane], tolerance: f64) -> Result<Self, SectionError> {
+    fn new(raw: &[Plane], tolerance: f64, repeats: Repeats) -> Result<Self, SectionError> {
         let coordinates = [0, 1].map(|axis| {
             let mut values = Vec::with_capacity(2 * raw.len());
             for plane in raw {
@@ -219,7 +249,7 @@ impl Draft {
             }
             Coordinates::new(values, tolerance)
         });
-        let edges = edges(raw, &coordinates);
+        let edges = edges(raw, &coordinates, repeats);
         let used = used_coordinates(&edges, &coordinates);
         let [xs, ys] = [0, 1].map(|axis| {
             let of_axis: &Coordinates = &coordinates[axis];

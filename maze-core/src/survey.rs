@@ -178,7 +178,7 @@ impl<'a> Survey<'a> {
     fn classify(&mut self, size: f64) -> Result<(), AssembleError> {
         let mut kinds = Vec::with_capacity(self.mesh.n_faces());
         let mut areas = Areas::default();
-        let mut levels = Levels::default();
+        let mut levels = Levels::with_room_for(self.mesh.n_faces());
         self.each_face(|corners| {
             let (kind, area, normal) = slice::classify(corners, size);
             areas.add(kind, area, normal);
@@ -196,7 +196,8 @@ impl<'a> Survey<'a> {
     /// The walls as planes at one height.
     pub(crate) fn cut_walls(&self) -> Result<Vec<Plane>, AssembleError> {
         let height = self.floor_z + CUT_PART * (self.top_z - self.floor_z);
-        let mut cut = Vec::new();
+        let is_cut = |kind: &&FaceKind| matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis);
+        let mut cut = Vec::with_capacity(self.kinds.iter().filter(is_cut).count());
         self.each(|kind, corners| {
             if matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis) {
                 slice::cut(corners, height, &mut cut);
@@ -342,7 +343,6 @@ impl Areas {
 }
 
 /// Heights of walls and upward faces.
-#[derive(Default)]
 struct Levels {
     walls: Vec<[f64; 3]>,    // lower end, upper end, area
     upward: Vec<(f64, f64)>, // z, area
@@ -355,6 +355,11 @@ const OUTLIER_PART: f64 = 0.1;
 const MAX_OUTLIERS: usize = 32;
 
 impl Levels {
+    /// Room that is not used is not touched.
+    fn with_room_for(n_faces: usize) -> Self {
+        Self { walls: Vec::with_capacity(n_faces), upward: Vec::with_capacity(n_faces) }
+    }
+
     fn add(&mut self, kind: FaceKind, area: f64, corners: &[Vector3<f64>]) {
         let heights = corners.iter().map(|corner| corner.z);
         match kind {

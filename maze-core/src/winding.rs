@@ -59,9 +59,18 @@ impl Edge {
     }
 }
 
+/// What a face counts for that is there several times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Repeats {
+    /// Each time: walls that overlap have such faces, one for each wall.
+    Count,
+    /// Once: a file may hold some faces twice for no reason.
+    Once,
+}
+
 /// Starts and ends of all faces; a start and an end of the same row that meet cancel, so pieces become one.
-pub(crate) fn edges(raw: &[Plane], coordinates: &[Coordinates; 2]) -> Vec<Edge> {
-    let ends = raw.iter().flat_map(|plane| {
+pub(crate) fn edges(raw: &[Plane], coordinates: &[Coordinates; 2], repeats: Repeats) -> Vec<Edge> {
+    let ends_of = |plane: &Plane| {
         let axis = plane.facing.axis();
         let offset = coordinates[axis].index_of(plane.offset);
         [(plane.start, 1), (plane.end, -1)].map(|(along, change)| Edge {
@@ -70,8 +79,16 @@ pub(crate) fn edges(raw: &[Plane], coordinates: &[Coordinates; 2]) -> Vec<Edge> 
             along: coordinates[1 - axis].index_of(along),
             change,
         })
-    });
-    let mut ends: Vec<Edge> = ends.collect();
+    };
+    let mut ends: Vec<Edge> = match repeats {
+        Repeats::Count => raw.iter().flat_map(ends_of).collect(),
+        Repeats::Once => {
+            let mut faces: Vec<[Edge; 2]> = raw.iter().map(ends_of).collect();
+            faces.sort_unstable();
+            faces.dedup();
+            faces.into_flattened()
+        }
+    };
     ends.sort_unstable();
     let same_place = |a: &Edge, b: &Edge| (a.facing, a.offset, a.along) == (b.facing, b.offset, b.along);
     let summed = ends
