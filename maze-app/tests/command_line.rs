@@ -309,3 +309,33 @@ fn an_unwritable_output_is_refused() {
         "/no/such/directory/a.obj: cannot write: no such file or directory",
     );
 }
+
+#[test]
+fn a_sidecar_decides_flags_win_and_its_faults_are_told_with_the_line() {
+    let directory = tempfile::tempdir().unwrap();
+    let maze = directory.path().join("maze.obj");
+    std::fs::copy(DEFAULT_MAZE, &maze).unwrap();
+    let maze = maze.to_str().unwrap();
+    let write = |text: &str| std::fs::write(directory.path().join("maze.toml"), text).unwrap();
+    let info = |flags: &[&str]| {
+        let output = maze_app(&["info", maze, "--json"]).args(flags).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let plain = info(&[]);
+    write("up = 'z'\nscale = 1\nball_radius = 0.2\n");
+    assert_eq!(info(&[])["ball_radius"], 0.2);
+    assert_eq!(info(&["--ball-radius", "0.3"])["ball_radius"], 0.3);
+    write(&format!("start = {}\ngoal = {}\n", plain["goal"], plain["start"]));
+    let swapped = info(&[]);
+    assert_eq!((&swapped["start"], &swapped["goal"]), (&plain["goal"], &plain["start"]));
+
+    write("# mine\ncolour = 'red'\n");
+    refused(&mut maze_app(&["info", maze]), "maze.toml: line 2: unknown field `colour`");
+    write("ball_radius = 3\n");
+    refused(&mut maze_app(&["info", maze]), "maze.toml: line 1: expected 0.02 to 0.49, in corridors");
+    write("start = [99, 99]\n");
+    refused(&mut maze_app(&["info", maze]), "maze.obj: the ball does not fit at (99, 99)");
+    write("textures = 'nowhere'\n");
+    refused(&mut maze_app(&["render", maze, "--out", "unused.png"]), "nowhere");
+}

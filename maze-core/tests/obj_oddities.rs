@@ -250,13 +250,13 @@ fn walls_without_tops_are_given_some() {
 
 #[test]
 fn walls_a_few_tenths_of_a_degree_off_axis_are_snapped() {
-    let mut n = 0.0;
+    let angles = [0.3, -0.2, 0.25, -0.3, 0.4];
     let crooked: Vec<Polygon> = WALLS
         .into_iter()
-        .flat_map(|[x0, y0, x1, y1]| {
-            n += 1.0;
-            let angle = [0.3, -0.2, 0.25, -0.3, 0.4][n as usize - 1];
-            moved(&block([x0, y0, x1, y1], [0.0, HEIGHT]), turned([(x0 + x1) / 2.0, (y0 + y1) / 2.0], angle))
+        .zip(angles)
+        .flat_map(|([x0, y0, x1, y1], angle)| {
+            let middle = [(x0 + x1) / 2.0, (y0 + y1) / 2.0];
+            moved(&block([x0, y0, x1, y1], [0.0, HEIGHT]), turned(middle, angle))
         })
         .collect();
     let maze = load(&crooked).unwrap();

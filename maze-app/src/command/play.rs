@@ -2,6 +2,7 @@
 
 use crate::app::{self, App};
 use crate::failure::Failure;
+use crate::files;
 use crate::game::EngineKind;
 use crate::sidecar;
 use crate::source::{MazeArguments, Source};
