@@ -22,7 +22,7 @@ pub(crate) struct Distances(Vec<f64>);
 /// Widest cell (units): a corridor, so that the ends of a bare one are cells of their own, and its middle stays whole ...
 const MAX_CELL: f64 = 1.0;
 /// ... unless the board is so wide that it would take more pieces than this.
-const MAX_PIECES: f64 = 4096.0;
+const MAX_PIECES: f64 = 512.0;
 
 /// The coordinates with wide gaps split evenly.
 fn split(coordinates: &[f64]) -> Vec<f64> {
