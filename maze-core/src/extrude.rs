@@ -1,5 +1,6 @@
-//! Layout -> polygons: walls, tops and floor.
+//! Layouts and blocks -> polygons: walls, tops and floor.
 
+use crate::blocks::{Blocks, to_f64};
 use crate::layout::Layout;
 use crate::polygons::PolygonMesh;
 use nalgebra::Vector3;
@@ -13,86 +14,88 @@ pub const WALL_HEIGHT: f64 = 0.55;
 
 /// Coordinate of the k-th wall line or corridor edge: even k starts a wall, odd k a corridor.
 fn line(k: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "a layout has at most 2^20 cells")]
-    let [n_walls, n_corridors] = [k.div_ceil(2) as f64, (k / 2) as f64];
+    let [n_walls, n_corridors] = [to_f64(k.div_ceil(2)), to_f64(k / 2)];
     n_walls * WALL_THICKNESS + n_corridors * CORRIDOR
 }
 
-/// The grid of a layout: posts, walls and corridors in turn, `2 n + 1` along each axis.
-struct Grid<'a>(&'a Layout);
+/// The layout as a mesh: floor, the walls' sides where they face free space, and their tops; +z is up.
+pub fn extrude(layout: &Layout) -> PolygonMesh {
+    let blocks = Blocks::of_layout(layout);
+    let lines = |n_blocks| (0..=n_blocks).map(line).collect();
+    let [xs, ys] = [lines(blocks.width()), lines(blocks.height())];
+    Grid { xs, ys, height: WALL_HEIGHT, is_wall: |i, j| blocks.is_wall(i, j) }.mesh()
+}
 
-impl Grid<'_> {
+/// Blocks of 1 unit as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece.
+pub(crate) fn extrude_blocks(blocks: &Blocks, xs: &[usize], ys: &[usize], height: f64) -> PolygonMesh {
+    let lines = |edges: &[usize]| edges.iter().map(|edge| to_f64(*edge)).collect();
+    Grid { xs: lines(xs), ys: lines(ys), height, is_wall: |i, j| blocks.is_wall(xs[i], ys[j]) }.mesh()
+}
+
+/// Rectangles between lines, each wall or free.
+struct Grid<W> {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    height: f64,
+    is_wall: W, // (i, j): the rectangle right of xs[i] and above ys[j]
+}
+
+impl<W: Fn(usize, usize) -> bool> Grid<W> {
+    /// Number of rectangles along x and y.
     fn size(&self) -> [usize; 2] {
-        [2 * self.0.width() + 1, 2 * self.0.height() + 1]
-    }
-
-    fn is_wall(&self, i: usize, j: usize) -> bool {
-        let [n_x, n_y] = self.size();
-        if i == 0 || j == 0 || i + 1 == n_x || j + 1 == n_y {
-            return true;
-        }
-        match (i % 2, j % 2) {
-            (1, 1) => false,
-            (0, 1) => !self.0.is_open_east(i / 2 - 1, j / 2),
-            (1, 0) => !self.0.is_open_north(i / 2, j / 2 - 1),
-            _ => true,
-        }
+        [self.xs.len().saturating_sub(1), self.ys.len().saturating_sub(1)]
     }
 
     /// Whether a wall's side towards this place shows.
     fn is_outside_or_free(&self, i: Option<usize>, j: Option<usize>) -> bool {
         let [n_x, n_y] = self.size();
         match (i, j) {
-            (Some(i), Some(j)) if i < n_x && j < n_y => !self.is_wall(i, j),
+            (Some(i), Some(j)) if i < n_x && j < n_y => !(self.is_wall)(i, j),
             _ => true,
         }
     }
-}
 
-/// The layout as a mesh: floor, the walls' sides where they face free space, and their tops; +z is up.
-///
-/// Faces are one grid cell each, so that edges meet corner to corner and no crack shows between them.
-pub fn extrude(layout: &Layout) -> PolygonMesh {
-    let grid = Grid(layout);
-    let [n_x, n_y] = grid.size();
-    let levels = [0.0, WALL_HEIGHT];
-    let position = |index: usize| {
-        let (level, rest) = (index % 2, index / 2);
-        Vector3::new(line(rest % (n_x + 1)), line(rest / (n_x + 1)), levels[level])
-    };
-    let positions = (0..2 * (n_x + 1) * (n_y + 1)).map(position).collect();
-    // A layout's size keeps positions and corners countable, and corners lie on the grid.
-    let mut mesh = PolygonMesh::new(positions).unwrap_or_default();
-    // A layout of 2^20 cells has at most 2 (2 + 2) (2^21 + 2) corners.
-    #[allow(clippy::cast_possible_truncation, reason = "at most 2^25")]
-    let corner = |i: usize, j: usize, level: usize| ((j * (n_x + 1) + i) * 2 + level) as u32;
-    let mut all_known = true;
-    for j in 0..n_y {
-        for i in 0..n_x {
-            let level = usize::from(grid.is_wall(i, j));
-            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-            let quad = [a, b, c, d].map(|(i, j)| corner(i, j, level));
-            all_known &= mesh.push_face(&quad);
-            if level == 0 {
-                continue;
+    /// Faces are one rectangle each, so that edges meet corner to corner and no crack shows between them. They come row by
+    /// row, and in a row floors first, then tops, then sides.
+    fn mesh(&self) -> PolygonMesh {
+        let [n_x, n_y] = self.size();
+        let levels = [0.0, self.height];
+        let positions = self.ys.iter().flat_map(|y| {
+            self.xs.iter().flat_map(move |x| levels.map(|z| Vector3::new(*x, *y, z)))
+        });
+        // Coordinates are finite and countable, and corners lie on the grid.
+        let mut mesh = PolygonMesh::new(positions.collect()).unwrap_or_default();
+        // A layout of 2^20 cells has at most 2 (2 + 2) (2^21 + 2) corners.
+        #[allow(clippy::cast_possible_truncation, reason = "at most 2^25")]
+        let corner = |i: usize, j: usize, level: usize| ((j * (n_x + 1) + i) * 2 + level) as u32;
+        let mut all_known = true;
+        for j in 0..n_y {
+            for level in [0, 1] {
+                for i in (0..n_x).filter(|i| usize::from((self.is_wall)(*i, j)) == level) {
+                    let quad = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                    all_known &= mesh.push_face(&quad.map(|(i, j)| corner(i, j, level)));
+                }
             }
-            let sides = [
-                (a, b, (Some(i), j.checked_sub(1))),
-                (b, c, (Some(i + 1), Some(j))),
-                (c, d, (Some(i), Some(j + 1))),
-                (d, a, (i.checked_sub(1), Some(j))),
-            ];
-            for (from, to, beside) in sides {
-                if grid.is_outside_or_free(beside.0, beside.1) {
-                    let bottom = [from, to].map(|(i, j)| corner(i, j, 0));
-                    let top = [to, from].map(|(i, j)| corner(i, j, 1));
-                    all_known &= mesh.push_face(&[bottom[0], bottom[1], top[0], top[1]]);
+            for i in (0..n_x).filter(|i| (self.is_wall)(*i, j)) {
+                let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                let sides = [
+                    (a, b, (Some(i), j.checked_sub(1))),
+                    (b, c, (Some(i + 1), Some(j))),
+                    (c, d, (Some(i), Some(j + 1))),
+                    (d, a, (i.checked_sub(1), Some(j))),
+                ];
+                for (from, to, beside) in sides {
+                    if self.is_outside_or_free(beside.0, beside.1) {
+                        let bottom = [from, to].map(|(i, j)| corner(i, j, 0));
+                        let top = [to, from].map(|(i, j)| corner(i, j, 1));
+                        all_known &= mesh.push_face(&[bottom[0], bottom[1], top[0], top[1]]);
+                    }
                 }
             }
         }
+        debug_assert!(all_known, "every corner lies on the grid");
+        mesh
     }
-    debug_assert!(all_known, "every corner lies on the grid");
-    mesh
 }
 
 #[cfg(test)]

@@ -38,6 +38,7 @@
 mod assemble;
 mod autopilot;
 mod ball;
+mod blocks;
 pub mod contact;
 pub mod engine;
 pub mod export;
@@ -64,6 +65,7 @@ mod winding;
 pub use assemble::{AssembleError, AssembleOptions};
 pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
+pub use blocks::{Blocks, BlocksError};
 pub use engine::{Continuous, Engine, Hit, Published, Tick};
 pub use gravity::Tilt;
 pub use layout::Layout;

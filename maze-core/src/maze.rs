@@ -72,3 +72,17 @@ pub struct Maze {
     /// Part of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
     pub doubtful_part: f64,
 }
+
+impl Maze {
+    /// The same maze from another start to another goal (units).
+    ///
+    /// # Errors
+    /// 0 when the ball does not fit at the start, 1 when it does not at the goal.
+    pub(crate) fn with_ends(mut self, start: Vector2<f64>, goal: Vector2<f64>) -> Result<Self, usize> {
+        let from = self.reach.cell_at(start).ok_or(0_usize)?;
+        let to = self.reach.cell_at(goal).ok_or(1_usize)?;
+        self.solvable = self.reach.distances_from(from).to(to).is_finite();
+        (self.start, self.goal) = (start, goal);
+        Ok(self)
+    }
+}
