@@ -15,7 +15,7 @@ const MAX_PIECES: usize = 1 << 18;
 pub struct Blocks {
     width: usize,
     height: usize,
-    wall: Vec<bool>,              // [y * width + x]
+    wall: Vec<bool>,               // [y * width + x]
     ends: Option<[[usize; 2]; 2]>, // free blocks: start and goal
 }
 
@@ -31,7 +31,9 @@ pub enum BlocksError {
         n_y: usize,
     },
     /// Start or goal lies beyond the walls, or the ball does not fit there.
-    #[error("line {line}, column {column}: the ball does not fit at `{name}`: expected a free place between the walls")]
+    #[error(
+        "line {line}, column {column}: the ball does not fit at `{name}`: expected a free place between the walls"
+    )]
     NoRoomAt {
         /// Counted from 1 at the top.
         line: usize,
@@ -124,7 +126,8 @@ impl Blocks {
             return Err(BlocksError::TooFine { n_x: xs.len(), n_y: ys.len() });
         }
         let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-        let of_height = |height| Maze::from_polygons(&extrude::extrude_blocks(self, &xs, &ys, height), &options);
+        let of_height =
+            |height| Maze::from_polygons(&extrude::extrude_blocks(self, &xs, &ys, height), &options);
         let mut maze = of_height(WALL_HEIGHT)?;
         if maze.scale != 1.0 {
             // Only now it is known how many blocks make a corridor.

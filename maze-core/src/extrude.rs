@@ -60,9 +60,10 @@ impl<W: Fn(usize, usize) -> bool> Grid<W> {
     fn mesh(&self) -> PolygonMesh {
         let [n_x, n_y] = self.size();
         let levels = [0.0, self.height];
-        let positions = self.ys.iter().flat_map(|y| {
-            self.xs.iter().flat_map(move |x| levels.map(|z| Vector3::new(*x, *y, z)))
-        });
+        let positions = self
+            .ys
+            .iter()
+            .flat_map(|y| self.xs.iter().flat_map(move |x| levels.map(|z| Vector3::new(*x, *y, z))));
         // Coordinates are finite and countable, and corners lie on the grid.
         let mut mesh = PolygonMesh::new(positions.collect()).unwrap_or_default();
         // A layout of 2^20 cells has at most 2 (2 + 2) (2^21 + 2) corners.

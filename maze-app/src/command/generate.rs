@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     .map_err(Failure::bad_input)?;
     let comment = format!("maze-app generate --size {width}x{height} --algorithm backtracker --seed {seed}");
-    let text = export::to_obj(&extrude::extrude(&layout), &comment);
+    let text = export::obj::to_obj(&extrude::extrude(&layout), &comment);
     files::write_whole(&arguments.out, text.as_bytes())?;
     files::print(&format!("{}: {width}x{height} cells, seed {seed}\n", arguments.out.display()))
 }

@@ -1,0 +1,4 @@
+//! Polygons, layouts and blocks -> text of files.
+
+pub mod obj;
+pub mod text;
