@@ -2,4 +2,5 @@
 
 pub mod obj;
 pub mod picture;
+pub mod svg;
 pub mod text;

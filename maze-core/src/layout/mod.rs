@@ -2,6 +2,7 @@
 
 mod door;
 mod generate;
+mod way;
 
 pub use door::{Door, Side};
 pub use generate::recursive_backtracker;
