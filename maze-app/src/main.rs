@@ -8,6 +8,8 @@ mod failure;
 mod files;
 mod game;
 mod input;
+mod maze_file;
+mod picture;
 mod source;
 mod state_log;
 mod ui;
@@ -42,7 +44,7 @@ enum Command {
     Play(command::play::Arguments),
     /// Load a maze and say what was found in it.
     Info(command::info::Arguments),
-    /// Make a random maze and write it as an OBJ file.
+    /// Make a random maze and write it as a file.
     Generate(command::generate::Arguments),
     /// Play to the goal without a window.
     Autopilot(command::autopilot::Arguments),
