@@ -29,7 +29,8 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     write_all_whole(&[(path, bytes)])
 }
 
-/// Writes several files that belong together; none gets its name before all are written.
+/// Writes several files that belong together; none gets its name before all are written, and the first, which refers to the
+/// others, gets its name last.
 pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure> {
     let failed = |path: &Path, error: std::io::Error| {
         Failure::in_file(path, format!("cannot write: {}", plain(&error)))
@@ -45,7 +46,7 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
         file.write_all(bytes).map_err(|error| failed(path, error))?;
         written.push((path, file));
     }
-    for (path, file) in written {
+    for (path, file) in written.into_iter().rev() {
         file.persist(path).map_err(|error| failed(path, error.error))?;
     }
     Ok(())

@@ -119,7 +119,10 @@ pub(crate) fn expect_writable(path: &Path, solution: bool) -> Result<(), Failure
     Ok(())
 }
 
-/// Writes a layout; the kind is told by the name's ending. An .obj gets its materials in an .mtl beside it.
+/// The materials beside an .obj. Always of this name, so that the same maze is the same file whatever its name.
+const MATERIALS: &str = "maze-app.mtl";
+
+/// Writes a layout; the kind is told by the name's ending. An .obj gets its [`MATERIALS`] beside it.
 pub(crate) fn write(
     path: &Path,
     layout: &Layout,
@@ -132,13 +135,11 @@ pub(crate) fn write(
             files::write_whole(path, export::text::write(&maze_core::Blocks::of_layout(layout)).as_bytes())
         }
         _ => {
-            let materials = path.with_extension("mtl");
-            let name = materials.file_name().and_then(|name| name.to_str());
-            let name = name.ok_or_else(|| Failure::in_file(path, "expected a name in UTF-8"))?;
-            let text = export::obj::write(&extrude::extrude(layout), name, comment);
+            let text = export::obj::write(&extrude::extrude(layout), MATERIALS, comment);
+            let materials = path.with_file_name(MATERIALS);
             files::write_all_whole(&[
-                (&materials, export::obj::MATERIALS.as_bytes()),
                 (path, text.as_bytes()),
+                (&materials, export::obj::MATERIALS.as_bytes()),
             ])
         }
     }

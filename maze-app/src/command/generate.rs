@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     /// Draw the shortest way from start to goal too (.svg)
     #[arg(long)]
     solution: bool,
-    /// Where to write it; the name ends in .obj (with an .mtl beside it), .svg or .txt
+    /// Where to write it; the name ends in .obj (gets maze-app.mtl beside it), .svg or .txt
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
