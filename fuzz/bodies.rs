@@ -3,7 +3,7 @@
 use maze_core::{AssembleOptions, Blocks, Layout, Maze, UpAxis, export, extrude, import};
 
 /// An OBJ file: polygons, and the maze they make.
-pub fn obj(bytes: &[u8]) {
+pub(crate) fn obj(bytes: &[u8]) {
     if let Ok(mesh) = import::obj::read(bytes) {
         let _ = Maze::from_polygons(&mesh, &AssembleOptions::default());
     }
@@ -11,7 +11,7 @@ pub fn obj(bytes: &[u8]) {
 
 /// An SVG: written and read again it is the same maze, or the same in larger cells where no wall is one cell long or one
 /// cell from the next.
-pub fn svg(bytes: &[u8]) {
+pub(crate) fn svg(bytes: &[u8]) {
     let Ok(maze) = import::svg::read(bytes) else { return };
     let text = export::svg::write(&maze.layout, maze.solution.as_deref(), "");
     let again = import::svg::read(text.as_bytes());
@@ -32,7 +32,7 @@ pub fn svg(bytes: &[u8]) {
 }
 
 /// A text maze: written and read again it is the same.
-pub fn text(bytes: &[u8]) {
+pub(crate) fn text(bytes: &[u8]) {
     let Ok(blocks) = import::text::read(bytes) else { return };
     text_round_trip(&blocks);
     if blocks.width() * blocks.height() < 4000 {
@@ -52,7 +52,7 @@ fn text_round_trip(blocks: &Blocks) {
 }
 
 /// A picture: two bytes for its size, the others are pixels, repeated as needed.
-pub fn picture(bytes: &[u8]) {
+pub(crate) fn picture(bytes: &[u8]) {
     let [width, height, pixels @ ..] = bytes else { return };
     let [width, height] = [*width, *height].map(usize::from);
     let pixels: Vec<u8> = pixels.iter().copied().cycle().take(width * height).collect();
@@ -69,7 +69,7 @@ fn right_margin(width: usize, pixels: &[u8]) -> usize {
 }
 
 /// Any layout: through OBJ, SVG and text and back.
-pub fn layout(layout: &Layout) {
+pub(crate) fn layout(layout: &Layout) {
     let mesh = extrude::extrude(layout);
     let back = import::obj::read(export::obj::write(&mesh, "m.mtl", "").as_bytes()).expect("an OBJ of ours");
     let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..Default::default() };

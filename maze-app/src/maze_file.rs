@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::{files, picture};
-use maze_core::{AssembleOptions, Layout, Maze, UpAxis, export, extrude, import};
+use maze_core::{AssembleOptions, Layout, Maze, export, extrude, import};
 use std::path::Path;
 
 /// What a file holds.

@@ -4,11 +4,15 @@ use crate::assemble::{AssembleError, AssembleOptions};
 use crate::extrude::{self, WALL_HEIGHT};
 use crate::layout::{Layout, Side};
 use crate::maze::Maze;
-use crate::polygons::UpAxis;
+use crate::polygons::{PolygonMesh, UpAxis};
 use nalgebra::Vector2;
 
 /// Most rectangles that the lines along the blocks' edges may make: a maze of 200 x 200 cells has 401 x 401.
 const MAX_PIECES: usize = 1 << 18;
+
+/// Most faces of walls, each as long as can be: a maze of 200 x 200 cells has some 90 thousand. A few bytes of a picture can
+/// ask for any number of them, and it takes some 300 bytes each to find the way between them.
+const MAX_FACES: usize = 160_000;
 
 /// A rectangle of blocks. Row 0 is the lowest.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +45,12 @@ pub enum BlocksError {
         column: usize,
         /// `S` or `G`.
         name: char,
+    },
+    /// Too large.
+    #[error("a maze of {n_faces} wall faces: expected at most {max}", max = MAX_FACES)]
+    TooLarge {
+        /// Sides and tops, each as long as can be.
+        n_faces: usize,
     },
     /// The walls make no maze.
     #[error(transparent)]
@@ -122,12 +132,10 @@ impl Blocks {
     /// Too many blocks, blocks that make no maze, and ends where the ball does not fit.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let [xs, ys] = self.edges();
-        if MAX_PIECES < xs.len().saturating_mul(ys.len()) {
-            return Err(BlocksError::TooFine { n_x: xs.len(), n_y: ys.len() });
-        }
-        let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-        let of_height =
-            |height| Maze::from_polygons(&extrude::extrude_blocks(self, &xs, &ys, height), &options);
+        let of_height = |height| {
+            let mesh = || extrude::extrude_blocks(self, &xs, &ys, height);
+            maze_of_grid([xs.len(), ys.len()], mesh, options)
+        };
         let mut maze = of_height(WALL_HEIGHT)?;
         if maze.scale != 1.0 {
             // Only now it is known how many blocks make a corridor.
@@ -147,6 +155,34 @@ impl Blocks {
             BlocksError::NoRoomAt { line: self.height - y, column: x + 1, name }
         })
     }
+}
+
+impl Layout {
+    /// The maze of this layout as a file's content may ask for it: not larger than what a file's size justifies.
+    ///
+    /// # Errors
+    /// Too many cells.
+    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
+        let lines = [self.width(), self.height()].map(|n| 2 * n + 2);
+        maze_of_grid(lines, || extrude::extrude(self), options)
+    }
+}
+
+/// The maze of walls between that many lines. Its up axis is z whatever the options say.
+fn maze_of_grid(
+    [n_x, n_y]: [usize; 2],
+    mesh: impl Fn() -> PolygonMesh,
+    options: &AssembleOptions,
+) -> Result<Maze, BlocksError> {
+    if MAX_PIECES < n_x.saturating_mul(n_y) {
+        return Err(BlocksError::TooFine { n_x, n_y });
+    }
+    let mesh = mesh();
+    if MAX_FACES < mesh.n_faces() {
+        return Err(BlocksError::TooLarge { n_faces: mesh.n_faces() });
+    }
+    let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
+    Ok(Maze::from_polygons(&mesh, &options)?)
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a side has far fewer than 2^53 blocks")]

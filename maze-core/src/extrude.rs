@@ -46,57 +46,125 @@ impl<W: Fn(usize, usize) -> bool> Grid<W> {
         [self.xs.len().saturating_sub(1), self.ys.len().saturating_sub(1)]
     }
 
-    /// Whether a wall's side towards this place shows.
-    fn is_outside_or_free(&self, i: Option<usize>, j: Option<usize>) -> bool {
+    /// Whether a place is wall; beyond the grid nothing is.
+    fn at(&self, i: Option<usize>, j: Option<usize>) -> bool {
         let [n_x, n_y] = self.size();
-        match (i, j) {
-            (Some(i), Some(j)) if i < n_x && j < n_y => !(self.is_wall)(i, j),
-            _ => true,
-        }
+        i.zip(j).is_some_and(|(i, j)| i < n_x && j < n_y && (self.is_wall)(i, j))
     }
 
-    /// Faces are one rectangle each, so that edges meet corner to corner and no crack shows between them. They come row by
-    /// row, and in a row floors first, then tops, then sides.
+    /// One floor under everything; tops and sides in pieces as large as can be, so that a mesh is no larger than its maze.
+    /// They come floor first, then tops, then sides.
     fn mesh(&self) -> PolygonMesh {
         let [n_x, n_y] = self.size();
-        let levels = [0.0, self.height];
-        let positions = self
-            .ys
-            .iter()
-            .flat_map(|y| self.xs.iter().flat_map(move |x| levels.map(|z| Vector3::new(*x, *y, z))));
-        // Coordinates are finite and countable, and corners lie on the grid.
-        let mut mesh = PolygonMesh::new(positions.collect()).unwrap_or_default();
-        // A layout of 2^20 cells has at most 2 (2 + 2) (2^21 + 2) corners.
-        #[allow(clippy::cast_possible_truncation, reason = "at most 2^25")]
-        let corner = |i: usize, j: usize, level: usize| ((j * (n_x + 1) + i) * 2 + level) as u32;
-        let mut all_known = true;
-        for j in 0..n_y {
-            for level in [0, 1] {
-                for i in (0..n_x).filter(|i| usize::from((self.is_wall)(*i, j)) == level) {
-                    let quad = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-                    all_known &= mesh.push_face(&quad.map(|(i, j)| corner(i, j, level)));
+        let mut corners =
+            Corners { grid: self, numbers: vec![UNUSED; 2 * (n_x + 1) * (n_y + 1)], positions: Vec::new() };
+        let mut faces: Vec<[u32; 4]> = Vec::new();
+        if 0 < n_x && 0 < n_y {
+            faces.push([(0, 0), (n_x, 0), (n_x, n_y), (0, n_y)].map(|(i, j)| corners.number(i, j, 0)));
+        }
+        for [low, high, left, right] in self.tops() {
+            faces.push(
+                [(left, low), (right, low), (right, high), (left, high)]
+                    .map(|(i, j)| corners.number(i, j, 1)),
+            );
+        }
+        for [from, to] in self.sides() {
+            let [a, b, c, d] = [(from, 0), (to, 0), (to, 1), (from, 1)];
+            faces.push([a, b, c, d].map(|((i, j), level)| corners.number(i, j, level)));
+        }
+        // Coordinates are finite and countable, and corners are numbered positions.
+        let mut mesh = PolygonMesh::new(corners.positions).unwrap_or_default();
+        let all_known = faces.iter().fold(true, |known, face| mesh.push_face(face) && known);
+        debug_assert!(all_known, "every corner is a position");
+        mesh
+    }
+
+    /// Rectangles of wall, as rows from and to, columns from and to: runs of a row that the next rows go on with.
+    fn tops(&self) -> Vec<[usize; 4]> {
+        let [n_x, n_y] = self.size();
+        let mut tops: Vec<[usize; 4]> = Vec::new();
+        let mut open: Vec<[usize; 3]> = Vec::new(); // row from, columns from and to, in the row before
+        for j in 0..=n_y {
+            let row: Vec<[usize; 2]> = runs(n_x, |i| j < n_y && (self.is_wall)(i, j)).collect();
+            let mut before = open.iter().peekable();
+            let mut next = Vec::with_capacity(row.len());
+            for [left, right] in row {
+                // Both rows are in order: what lies left of this run has ended.
+                while let Some(ended) = before.next_if(|open| open[1] < left) {
+                    tops.push([ended[0], j, ended[1], ended[2]]);
                 }
-            }
-            for i in (0..n_x).filter(|i| (self.is_wall)(*i, j)) {
-                let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-                let sides = [
-                    (a, b, (Some(i), j.checked_sub(1))),
-                    (b, c, (Some(i + 1), Some(j))),
-                    (c, d, (Some(i), Some(j + 1))),
-                    (d, a, (i.checked_sub(1), Some(j))),
-                ];
-                for (from, to, beside) in sides {
-                    if self.is_outside_or_free(beside.0, beside.1) {
-                        let bottom = [from, to].map(|(i, j)| corner(i, j, 0));
-                        let top = [to, from].map(|(i, j)| corner(i, j, 1));
-                        all_known &= mesh.push_face(&[bottom[0], bottom[1], top[0], top[1]]);
+                match before.next_if(|open| open[1] == left) {
+                    Some(same) if same[2] == right => next.push(*same),
+                    other => {
+                        tops.extend(other.map(|ended| [ended[0], j, ended[1], ended[2]]));
+                        next.push([j, left, right]);
                     }
                 }
             }
+            tops.extend(before.map(|ended| [ended[0], j, ended[1], ended[2]]));
+            open = next;
         }
-        debug_assert!(all_known, "every corner lies on the grid");
-        mesh
+        tops
     }
+
+    /// Runs of sides that look the same way, from and to, counter-clockwise around the wall.
+    fn sides(&self) -> Vec<[(usize, usize); 2]> {
+        let [n_x, n_y] = self.size();
+        let mut sides = Vec::new();
+        for j in 0..=n_y {
+            let (below, above) = (j.checked_sub(1), Some(j));
+            let looks_down = |i: usize| self.at(Some(i), above) && !self.at(Some(i), below);
+            let looks_up = |i: usize| self.at(Some(i), below) && !self.at(Some(i), above);
+            sides.extend(runs(n_x, looks_down).map(|[from, to]| [(from, j), (to, j)]));
+            sides.extend(runs(n_x, looks_up).map(|[from, to]| [(to, j), (from, j)]));
+        }
+        for i in 0..=n_x {
+            let (left, right) = (i.checked_sub(1), Some(i));
+            let looks_left = |j: usize| self.at(right, Some(j)) && !self.at(left, Some(j));
+            let looks_right = |j: usize| self.at(left, Some(j)) && !self.at(right, Some(j));
+            sides.extend(runs(n_y, looks_left).map(|[from, to]| [(i, to), (i, from)]));
+            sides.extend(runs(n_y, looks_right).map(|[from, to]| [(i, from), (i, to)]));
+        }
+        sides
+    }
+}
+
+/// A corner of the grid that no face uses so far.
+const UNUSED: u32 = u32::MAX;
+
+/// Numbers the corners in the order of their first use.
+struct Corners<'a, W> {
+    grid: &'a Grid<W>,
+    numbers: Vec<u32>, // [2 * (j * (n_x + 1) + i) + level]
+    positions: Vec<Vector3<f64>>,
+}
+
+impl<W> Corners<'_, W> {
+    fn number(&mut self, i: usize, j: usize, level: usize) -> u32 {
+        let number = &mut self.numbers[2 * (j * self.grid.xs.len() + i) + level];
+        if *number == UNUSED {
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "a layout has at most 2 (2 * 2^10 + 2)^2 corners"
+            )]
+            let next = self.positions.len() as u32;
+            *number = next;
+            let z = if level == 0 { 0.0 } else { self.grid.height };
+            self.positions.push(Vector3::new(self.grid.xs[i], self.grid.ys[j], z));
+        }
+        *number
+    }
+}
+
+/// Maximal runs of what holds in `0..n`, as start and end.
+pub(crate) fn runs(n: usize, holds: impl Fn(usize) -> bool) -> impl Iterator<Item = [usize; 2]> {
+    let mut next = 0;
+    std::iter::from_fn(move || {
+        let start = (next..n).find(|at| holds(*at))?;
+        let end = (start..n).find(|at| !holds(*at)).unwrap_or(n);
+        next = end;
+        Some([start, end])
+    })
 }
 
 #[cfg(test)]

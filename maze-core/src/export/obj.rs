@@ -204,7 +204,12 @@ mod tests {
             *areas.entry(group).or_default() += doubled.norm() / 2.0;
         }
         let whole = (9.0 * 1.2 + 0.2) * (7.0 * 1.2 + 0.2);
-        assert!((areas["floor"] + areas["top"] - whole).abs() < 1.0e-9, "{areas:?}");
+        assert!((areas["floor"] - whole).abs() < 1.0e-9, "{areas:?}");
+        let free = 9.0 * 7.0 + 0.2 * (9.0 * 7.0 - 1.0 + 2.0);
+        assert!(
+            (areas["top"] - (whole - free)).abs() < 1.0e-9,
+            "cells, passages and doors are free: {areas:?}"
+        );
         for material in ["wall", "top", "floor"] {
             assert!(MATERIALS.contains(&format!("newmtl {material}\n")) && areas.contains_key(material));
         }

@@ -1,5 +1,6 @@
 //! Layouts -> SVG, in the form of mazegenerator.net.
 
+use crate::extrude::runs;
 use crate::layout::{Layout, Side};
 use std::fmt::Write;
 
@@ -45,17 +46,6 @@ pub fn write(layout: &Layout, solution: Option<&[usize]>, comment: &str) -> Stri
     }
     text.push_str("</svg>\n");
     text
-}
-
-/// Maximal runs of what holds in `0..n`, as start and end.
-fn runs(n: usize, holds: impl Fn(usize) -> bool) -> impl Iterator<Item = [usize; 2]> {
-    let mut next = 0;
-    std::iter::from_fn(move || {
-        let start = (next..n).find(|at| holds(*at))?;
-        let end = (start..n).find(|at| !holds(*at)).unwrap_or(n);
-        next = end;
-        Some([start, end])
-    })
 }
 
 fn is_wall_above(layout: &Layout, x: usize, row: usize) -> bool {

@@ -121,7 +121,8 @@ impl Picture {
     /// Walls that make no maze.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, PictureError> {
         self.blocks.maze(options).map_err(|error| match error {
-            BlocksError::TooFine { n_x, n_y } => {
+            BlocksError::TooFine { .. } | BlocksError::TooLarge { .. } => {
+                let [n_x, n_y] = self.blocks.edges().map(|edges| edges.len());
                 let (x, y) = self.first_speck();
                 PictureError::TooFine { x, y, n_x, n_y }
             }
