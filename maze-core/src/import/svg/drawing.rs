@@ -2,11 +2,12 @@
 
 use super::SvgError;
 use super::numbers::{self, Token, Tokens, Transform};
-use roxmltree::{Document, Node, ParsingOptions};
+use quick_xml::Reader as XmlReader;
+use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
 
-/// Most elements and texts of a file: a maze of 1024 x 1024 cells has fewer walls in this form.
-const MAX_NODES: u32 = 1 << 21;
+/// Most elements inside each other: a drawing has a handful, and each takes memory until it ends.
+const MAX_DEPTH: usize = 1000;
 
 /// Which element a stroke comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,12 +31,18 @@ pub(super) struct Chain {
 
 /// What an element hands down to those inside it.
 #[derive(Clone, Copy)]
-struct Style<'a> {
+struct Style {
     transform: Transform,
-    stroke: &'a str,
-    fill: &'a str,
-    hidden: bool,
+    stroke: usize,
+    /// Whether areas are not filled, or filled like paper.
+    is_pale: bool,
+    /// Nothing in it is drawn.
+    is_hidden: bool,
 }
+
+/// Numbers of the strokes that mean something.
+const NO_STROKE_GIVEN: usize = 0;
+const NONE: usize = 1;
 
 /// Elements that draw nothing, or nothing that could be a wall.
 const UNSEEN: [&str; 16] = [
@@ -59,164 +66,206 @@ const UNSEEN: [&str; 16] = [
 
 /// All strokes of a file, in its order.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Chain>, SvgError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(SvgError::Empty);
     }
     let line_at = |offset: usize| 1 + bytes[..offset].iter().filter(|byte| **byte == b'\n').count();
     let text = std::str::from_utf8(bytes)
         .map_err(|error| SvgError::NotText { line: line_at(error.valid_up_to()) })?;
-    // Never expanded, so that no few bytes become many; a drawing has no use for them.
+    // The parser does not expand them; a drawing that needs them would be another one than it shows.
     if let Some(offset) = text.find("<!ENTITY") {
         return Err(SvgError::Entity { line: line_at(offset) });
     }
-    let options = ParsingOptions { allow_dtd: true, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
-    let document = Document::parse_with_options(text, options).map_err(|error| {
-        let line = usize::try_from(error.pos().row).unwrap_or(0);
-        SvgError::Xml { line, reason: error.to_string() }
-    })?;
-    let root = document.root_element();
-    if root.tag_name().name() != "svg" {
-        let found = shortened(root.tag_name().name());
-        return Err(SvgError::NotSvg { line: line_at(root.range().start), found });
-    }
-    let lines = Lines { bytes, offset: 0, line: 1 };
-    let mut reader = Reader { chains: Vec::new(), strokes: BTreeMap::new(), lines };
-    let style = Style { transform: Transform::IDENTITY, stroke: "", fill: "", hidden: false };
-    // Not recursive: a file may be nested deeper than the stack.
-    let mut open = vec![(root, style)];
-    while let Some((node, inherited)) = open.pop() {
-        let name = node.tag_name().name();
-        if UNSEEN.contains(&name) {
-            continue;
+    let strokes = BTreeMap::from([(String::new(), NO_STROKE_GIVEN), ("none".to_owned(), NONE)]);
+    let mut reader = Reader { chains: Vec::new(), strokes, line: 1 };
+    let style =
+        Style { transform: Transform::IDENTITY, stroke: NO_STROKE_GIVEN, is_pale: false, is_hidden: false };
+    let mut xml = XmlReader::from_str(text);
+    let mut open: Vec<Style> = Vec::new();
+    let (mut has_root, mut offset) = (false, 0);
+    loop {
+        let event = xml.read_event();
+        let not_xml = |line, reason: &str| SvgError::Xml { line, reason: reason.to_owned() };
+        match event.map_err(|error| not_xml(reader.line, &error.to_string()))? {
+            Event::Start(element) => {
+                let inherited = open.last().copied().unwrap_or(style);
+                open.push(reader.element(&element, inherited, std::mem::replace(&mut has_root, true))?);
+                if MAX_DEPTH < open.len() {
+                    return Err(not_xml(reader.line, "more than 1000 elements inside each other"));
+                }
+            }
+            Event::Empty(element) => {
+                let inherited = open.last().copied().unwrap_or(style);
+                reader.element(&element, inherited, std::mem::replace(&mut has_root, true))?;
+            }
+            Event::End(_) => drop(open.pop()),
+            Event::Text(words) if open.is_empty() && !words.iter().all(u8::is_ascii_whitespace) => {
+                return Err(not_xml(reader.line, "text outside the root element"));
+            }
+            Event::Eof if !open.is_empty() => {
+                return Err(not_xml(reader.line, "the file ends inside an element"));
+            }
+            Event::Eof => return Ok(reader.chains),
+            _ => {}
         }
-        reader.lines.advance(node.range().start);
-        let style = reader.style(&node, inherited)?;
-        if style.hidden {
-            continue;
-        }
-        reader.element(&node, &style)?;
-        open.extend(node.children().filter(Node::is_element).rev().map(|child| (child, style)));
+        let end = usize::try_from(xml.buffer_position()).unwrap_or(bytes.len());
+        reader.line += bytes[offset..end].iter().filter(|byte| **byte == b'\n').count();
+        offset = end;
     }
-    Ok(reader.chains)
 }
 
 fn shortened(text: &str) -> String {
     text.chars().take(40).collect()
 }
 
-/// Counts lines as the offset moves on.
-struct Lines<'a> {
-    bytes: &'a [u8],
-    offset: usize,
+/// The attributes that matter, of one element.
+#[derive(Default)]
+struct Attributes {
+    known: BTreeMap<&'static str, String>,
+}
+
+/// Their names.
+const KNOWN: [&str; 16] = [
+    "x1",
+    "y1",
+    "x2",
+    "y2",
+    "x",
+    "y",
+    "width",
+    "height",
+    "points",
+    "d",
+    "transform",
+    "style",
+    "stroke",
+    "fill",
+    "display",
+    "visibility",
+];
+
+impl Attributes {
+    fn get(&self, name: &str) -> Option<&str> {
+        self.known.get(name).map(String::as_str)
+    }
+
+    /// A property: a declaration in `style` is stronger than an attribute of that name.
+    fn property(&self, name: &str) -> Option<&str> {
+        let declarations = self.get("style").unwrap_or_default().split(';');
+        let values =
+            declarations.filter_map(|one| one.split_once(':')).map(|(key, value)| (key.trim(), value.trim()));
+        let declared = values.filter(|(key, _)| *key == name).last().map(|(_, value)| value);
+        declared.or_else(|| self.get(name)).filter(|value| *value != "inherit")
+    }
+}
+
+struct Reader {
+    chains: Vec<Chain>,
+    strokes: BTreeMap<String, usize>,
+    /// Of the element being read.
     line: usize,
 }
 
-impl Lines<'_> {
-    fn advance(&mut self, offset: usize) {
-        let passed = self.bytes.get(self.offset..offset).unwrap_or_default();
-        self.line += passed.iter().filter(|byte| **byte == b'\n').count();
-        self.offset = offset;
+impl Reader {
+    fn wrong(&self, element: &str, attribute: &'static str, found: &str, expected: &'static str) -> SvgError {
+        let (element, found) = (shortened(element), shortened(found));
+        SvgError::Attribute { line: self.line, element, attribute, found, expected }
     }
-}
 
-struct Reader<'a> {
-    chains: Vec<Chain>,
-    strokes: BTreeMap<&'a str, usize>,
-    lines: Lines<'a>,
-}
-
-impl<'a> Reader<'a> {
-    fn wrong(&self, node: &Node, attribute: &'static str, found: &str, expected: &'static str) -> SvgError {
-        SvgError::Attribute {
-            line: self.lines.line,
-            element: shortened(node.tag_name().name()),
-            attribute,
-            found: shortened(found),
-            expected,
+    fn attributes(&self, element: &BytesStart) -> Result<Attributes, SvgError> {
+        let mut attributes = Attributes::default();
+        // Without the parser's search for duplicates, which takes as long as the square of their number.
+        for attribute in element.attributes().with_checks(false) {
+            let attribute =
+                attribute.map_err(|error| SvgError::Xml { line: self.line, reason: error.to_string() })?;
+            if let Some(name) = KNOWN.iter().find(|name| name.as_bytes() == attribute.key.as_ref()) {
+                // The whole file is UTF-8.
+                attributes.known.insert(name, String::from_utf8_lossy(&attribute.value).into_owned());
+            }
         }
+        Ok(attributes)
     }
 
-    fn style(&self, node: &Node<'a, '_>, inherited: Style<'a>) -> Result<Style<'a>, SvgError> {
+    /// Draws one element and says what those inside it inherit.
+    fn element(&mut self, element: &BytesStart, inherited: Style, has_root: bool) -> Result<Style, SvgError> {
+        let name = String::from_utf8_lossy(element.local_name().as_ref()).into_owned();
+        if !has_root && name != "svg" {
+            return Err(SvgError::NotSvg { line: self.line, found: shortened(&name) });
+        }
         let mut style = inherited;
-        if let Some(list) = node.attribute("transform") {
+        if style.is_hidden || UNSEEN.contains(&&name[..]) {
+            return Ok(Style { is_hidden: true, ..style });
+        }
+        let attributes = self.attributes(element)?;
+        if let Some(list) = attributes.get("transform") {
             style.transform = inherited.transform.after_list(list).ok_or_else(|| {
-                self.wrong(
-                    node,
-                    "transform",
-                    list,
-                    "translate(X, Y), scale(X, Y) or matrix(A, B, C, D, E, F)",
-                )
+                let expected = "translate(X, Y), scale(X, Y) or matrix(A, B, C, D, E, F)";
+                self.wrong(&name, "transform", list, expected)
             })?;
         }
-        // A declaration in `style` is stronger than an attribute of that name.
-        let declared = |name: &str| {
-            let declarations = node.attribute("style").unwrap_or_default().split(';');
-            let values = declarations
-                .filter_map(|one| one.split_once(':'))
-                .map(|(key, value)| (key.trim(), value.trim()));
-            values.filter(|(key, _)| *key == name).last().map(|(_, value)| value)
-        };
-        let value = |name: &'static str| declared(name).or_else(|| node.attribute(name));
-        style.stroke = value("stroke").filter(|value| *value != "inherit").unwrap_or(style.stroke);
-        style.fill = value("fill").filter(|value| *value != "inherit").unwrap_or(style.fill);
-        style.hidden |= value("display") == Some("none") || value("visibility") == Some("hidden");
+        if let Some(stroke) = attributes.property("stroke") {
+            let next = self.strokes.len();
+            style.stroke = match self.strokes.get(stroke) {
+                Some(known) => *known,
+                None => *self.strokes.entry(stroke.to_owned()).or_insert(next),
+            };
+        }
+        if let Some(fill) = attributes.property("fill") {
+            style.is_pale = ["none", "white", "#fff", "#ffffff"].contains(&&fill.to_ascii_lowercase()[..]);
+        }
+        style.is_hidden = attributes.property("display") == Some("none")
+            || matches!(attributes.property("visibility"), Some("hidden" | "collapse"));
+        if !style.is_hidden {
+            self.draw(&name, &attributes, &style)?;
+        }
         Ok(style)
     }
 
-    fn element(&mut self, node: &Node, style: &Style<'a>) -> Result<(), SvgError> {
-        let name = node.tag_name().name();
-        let is_drawn = style.stroke != "none";
+    fn draw(&mut self, name: &str, attributes: &Attributes, style: &Style) -> Result<(), SvgError> {
+        let is_drawn = style.stroke != NONE;
+        let number = |attribute: &'static str| {
+            // What is not given is 0.
+            let Some(text) = attributes.get(attribute) else { return Ok(0.0) };
+            let number = numbers::length(text);
+            number.ok_or_else(|| self.wrong(name, attribute, text, "a number of at most 1e12"))
+        };
         match name {
             "line" if is_drawn => {
-                let ends = [["x1", "y1"], ["x2", "y2"]];
-                let mut points = Vec::with_capacity(2);
-                for [x, y] in ends {
-                    points.push([self.number(node, x)?, self.number(node, y)?]);
-                }
+                let points = [[number("x1")?, number("y1")?], [number("x2")?, number("y2")?]];
                 self.push(Source::Line, style, &points);
             }
             "polyline" if is_drawn => {
-                let list = node.attribute("points").unwrap_or_default();
+                let list = attributes.get("points").unwrap_or_default();
                 let points = numbers::points(list);
-                let points = points.ok_or_else(|| self.wrong(node, "points", list, "pairs of numbers"))?;
+                let points = points.ok_or_else(|| self.wrong(name, "points", list, "pairs of numbers"))?;
                 self.push(Source::Polyline, style, &points);
             }
-            "path" if is_drawn => self.path(node, style)?,
-            "rect" if is_drawn && !style.stroke.is_empty() => {
-                let [x, y, width, height] = ["x", "y", "width", "height"];
-                let [x, y] = [self.number(node, x)?, self.number(node, y)?];
-                let [right, bottom] = [x + self.number(node, width)?, y + self.number(node, height)?];
+            "path" if is_drawn => self.path(attributes.get("d").unwrap_or_default(), style)?,
+            "rect" if is_drawn && style.stroke != NO_STROKE_GIVEN => {
+                let [x, y] = [number("x")?, number("y")?];
+                let [right, bottom] = [x + number("width")?, y + number("height")?];
                 self.push(Source::Path, style, &[[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]);
             }
             // A background, as long as it comes before all walls.
-            "rect"
-                if self.chains.is_empty() || matches!(style.fill, "none" | "white" | "#fff" | "#ffffff") => {}
+            "rect" if self.chains.is_empty() || style.is_pale => {}
             "rect" | "polygon" | "use" | "image" | "foreignObject" => {
-                return Err(SvgError::Element { line: self.lines.line, element: name.to_owned() });
+                return Err(SvgError::Element { line: self.line, element: name.to_owned() });
             }
             _ => {}
         }
         Ok(())
     }
 
-    /// A coordinate; 0 where it is not given.
-    fn number(&self, node: &Node, attribute: &'static str) -> Result<f64, SvgError> {
-        let Some(text) = node.attribute(attribute) else { return Ok(0.0) };
-        numbers::length(text).ok_or_else(|| self.wrong(node, attribute, text, "a number of at most 1e12"))
-    }
-
-    fn push(&mut self, source: Source, style: &Style<'a>, points: &[[f64; 2]]) {
+    fn push(&mut self, source: Source, style: &Style, points: &[[f64; 2]]) {
         let points = points.iter().map(|point| style.transform.apply(*point)).collect();
-        let next = self.strokes.len();
-        let stroke = *self.strokes.entry(style.stroke).or_insert(next);
-        self.chains.push(Chain { source, stroke, points, line: self.lines.line });
+        self.chains.push(Chain { source, stroke: style.stroke, points, line: self.line });
     }
 
     /// Moves, lines and closings; each move begins a chain.
-    fn path(&mut self, node: &Node, style: &Style<'a>) -> Result<(), SvgError> {
+    fn path(&mut self, data: &str, style: &Style) -> Result<(), SvgError> {
         const EXPECTED: &str = "path data such as M 2 2 L 18 2 or M 2 2 h 16";
-        let data = node.attribute("d").unwrap_or_default();
-        let wrong = || self.wrong(node, "d", data, EXPECTED);
+        let wrong = || self.wrong("path", "d", data, EXPECTED);
         let mut tokens = Tokens(data).peekable();
         let (mut chains, mut points): (Vec<Vec<[f64; 2]>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
         let (mut at, mut first) = ([0.0; 2], [0.0; 2]);
@@ -241,8 +290,8 @@ impl<'a> Reader<'a> {
                 'm' | 'l' => [from[0] + number()?, from[1] + number()?],
                 'h' => [from[0] + number()?, at[1]],
                 'v' => [at[0], from[1] + number()?],
-                'a' => return Err(SvgError::Circular { line: self.lines.line }),
-                'c' | 's' | 'q' | 't' => return Err(SvgError::Curved { line: self.lines.line }),
+                'a' => return Err(SvgError::Circular { line: self.line }),
+                'c' | 's' | 'q' | 't' => return Err(SvgError::Curved { line: self.line }),
                 _ => return Err(wrong()),
             };
             if name.eq_ignore_ascii_case(&'m') {
