@@ -99,9 +99,7 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions) -> Result<Loaded, Fai
 
 fn svg(bytes: &[u8], options: &AssembleOptions) -> Result<Loaded, String> {
     let svg = import::svg::read(bytes).map_err(|error| error.to_string())?;
-    let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-    let maze =
-        Maze::from_polygons(&extrude::extrude(&svg.layout), &options).map_err(|error| error.to_string())?;
+    let maze = svg.layout.maze(options).map_err(|error| error.to_string())?;
     let (layout, [cell_x, cell_y]) = (&svg.layout, svg.cell);
     let mut found = format!("{} x {} cells of {cell_x} x {cell_y}", layout.width(), layout.height());
     if let Some(way) = &svg.solution {
