@@ -115,14 +115,14 @@ impl Grid {
         values.iter_mut().for_each(|values| values.dedup_by(|next, kept| *next - *kept <= SAME_PART * size));
         let corner = [values[0][0], values[1][0]];
         let extents = [0, 1].map(|axis| values[axis][values[axis].len() - 1] - corner[axis]);
-        // One size for both axes; where there is none, the drawing is stretched, or no two walls are one cell apart.
+        // One size for both axes; where there is none, the drawing is stretched, or no two walls are one cell apart, or what
+        // looks like rounding is none.
         let [x, y] = [0, 1].map(|axis| &values[axis][..]);
-        let both = |divisor| cell_size(&[x, y], divisor).map(|cell| [cell, cell]);
-        let each = || Some([cell_size(&[x], 1)?, cell_size(&[y], 1)?]);
-        let cell = both(1)
-            .or_else(each)
-            .or_else(|| (2..=MAX_DIVISOR).find_map(both))
-            .ok_or(SvgError::NoGrid { line: first })?;
+        let both = |divisor, rounding| cell_size(&[x, y], divisor, rounding).map(|cell| [cell, cell]);
+        let each = || Some([cell_size(&[x], 1, ROUNDING_PART)?, cell_size(&[y], 1, ROUNDING_PART)?]);
+        let cell = both(1, ROUNDING_PART).or_else(each);
+        let cell = cell.or_else(|| (2..=MAX_DIVISOR).find_map(|divisor| both(divisor, ROUNDING_PART)));
+        let cell = cell.or_else(|| both(1, 0.0)).ok_or(SvgError::NoGrid { line: first })?;
         let n_cells = [0, 1].map(|axis| nearest(extents[axis] / cell[axis]));
         if n_cells.contains(&0) {
             return Err(SvgError::NoGrid { line: first });
@@ -174,11 +174,11 @@ impl Grid {
 }
 
 /// The narrowest gap between values, divided: `None` unless all distances from the first value, on each axis, are multiples
-/// of that. Values ascend and differ.
-fn cell_size(axes: &[&[f64]], divisor: usize) -> Option<f64> {
+/// of that. Gaps below `rounding`, a part of the widest, do not count. Values ascend and differ.
+fn cell_size(axes: &[&[f64]], divisor: usize, rounding: f64) -> Option<f64> {
     let gaps = || axes.iter().flat_map(|values| values.windows(2)).map(|pair| pair[1] - pair[0]);
     let widest_gap = gaps().reduce(|a, b| if a < b { b } else { a })?;
-    let cells = gaps().filter(|gap| ROUNDING_PART * widest_gap <= *gap);
+    let cells = gaps().filter(|gap| rounding * widest_gap <= *gap);
     let narrowest = cells.reduce(|a, b| if b < a { b } else { a })?;
     let extents = axes.iter().map(|values| values[values.len() - 1] - values[0]);
     let widest = extents.reduce(|a, b| if a < b { b } else { a })?;
