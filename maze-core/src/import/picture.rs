@@ -207,7 +207,7 @@ mod tests {
         let wall = |x: usize, y: usize| {
             let door = (y < 2 && (2..16).contains(&x)) || (48 <= y && (34..48).contains(&x));
             let inner = (1..3).any(|k| x / 16 == k && is_line(x) && (y < 32) == (k == 1));
-            (x < 2 || 48 <= x || y < 2 || 48 <= y || inner) && !door
+            (!(2..48).contains(&x) || !(2..48).contains(&y) || inner) && !door
         };
         let pixels: Vec<u8> = (0..50 * 50).map(|i| if wall(i % 50, i / 50) { 0 } else { 255 }).collect();
         let maze = read(50, 50, &pixels).unwrap().maze(&AssembleOptions::default()).unwrap();

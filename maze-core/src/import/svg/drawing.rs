@@ -155,7 +155,7 @@ impl Attributes {
         let declarations = self.get("style").unwrap_or_default().split(';');
         let values =
             declarations.filter_map(|one| one.split_once(':')).map(|(key, value)| (key.trim(), value.trim()));
-        let declared = values.filter(|(key, _)| *key == name).last().map(|(_, value)| value);
+        let declared = values.rev().find(|(key, _)| *key == name).map(|(_, value)| value);
         declared.or_else(|| self.get(name)).filter(|value| *value != "inherit")
     }
 }
