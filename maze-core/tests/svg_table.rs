@@ -1,5 +1,6 @@
 //! Every real SVG, if the directory with them is there: what is expected of it was written down after looking at its picture.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::disallowed_methods, reason = "a test may read files")]
 
 use maze_core::layout::{Door, Side};
 use maze_core::{AssembleOptions, Facing, export, import};
