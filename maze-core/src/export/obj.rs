@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// The materials that [`write`] names: plain colours near the game's own textures.
+/// The materials that [`write()`] names: plain colours near the game's own textures.
 pub const MATERIALS: &str = "\
 # Materials of a maze: its walls, their tops, and its floor
 newmtl wall
