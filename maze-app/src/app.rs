@@ -34,6 +34,9 @@ const PIXELS_PER_NOTCH: f64 = 40.0;
 /// While nothing is shown, how often to look whether it is time to end.
 const HIDDEN_WAKE: Duration = Duration::from_millis(100);
 
+/// How long a message stays on screen.
+const NOTICE_TIME: Duration = Duration::from_secs(10);
+
 /// The way to the window system, or one line that says why there is none.
 pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
     // The error itself names a line of the library's source, and says no more than this.
@@ -65,6 +68,8 @@ pub(crate) struct App {
     graphics: Option<Graphics>,
     cursor: PhysicalPosition<f64>,
     help: bool,
+    /// Why a dropped file was not loaded, and when.
+    notice: Option<(String, Instant)>,
     hidden: bool,
     n_ticks: u64,
     max_tilt_rad: f32,
@@ -94,6 +99,7 @@ impl App {
             graphics: None,
             cursor: PhysicalPosition::default(),
             help: true,
+            notice: None,
             hidden: false,
             n_ticks: 0,
             max_tilt_rad: to_f32(setup.max_tilt_rad),
@@ -152,13 +158,35 @@ impl App {
             }
             Action::NewMaze => {
                 if self.source.next() {
-                    self.control.level();
                     self.game = Game::new(self.source.load()?, self.engine)?;
-                    self.view.show_all();
                     self.load_into_graphics()?;
+                    self.begin();
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Another maze is there: level, all of it in view.
+    fn begin(&mut self) {
+        self.control.level();
+        self.view.show_all();
+        self.notice = None;
+    }
+
+    /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
+    fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
+        let source = self.source.of_file(path);
+        match source.load().and_then(|maze| Game::new(maze, self.engine)) {
+            Ok(game) => {
+                (self.game, self.source) = (game, source);
+                self.load_into_graphics()?;
+                self.begin();
+            }
+            Err(failure) => self.notice = Some((failure.to_string(), Instant::now())),
+        }
+        // The time it took to load is not played.
+        self.last_frame = Instant::now();
         Ok(())
     }
 
@@ -217,6 +245,7 @@ impl App {
         let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
         self.simulate(elapsed)?;
         let title = self.source.title();
+        let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
         let hud = Hud {
             phase: self.game.phase(),
             n_ticks: self.game.n_ticks(),
@@ -224,6 +253,7 @@ impl App {
             title: &title,
             has_next: self.source.has_next(),
             help: self.help,
+            notice: notice.map(|(text, _)| text.as_str()),
         };
         let held = self.control.is_dragged().then_some(&self.control);
         let pose = self.game.pose(self.clock.alpha(), held);
@@ -275,6 +305,7 @@ impl App {
                 MouseScrollDelta::LineDelta(_, notches) => f64::from(notches),
                 MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
             }),
+            WindowEvent::DroppedFile(path) => self.drop_file(path)?,
             WindowEvent::RedrawRequested => self.frame()?,
             _ => {}
         }

@@ -26,15 +26,29 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 
 /// Writes beside the target under a temporary name, then renames.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let failed = |error: std::io::Error| Failure::in_file(path, format!("cannot write: {}", plain(&error)));
-    let directory = directory_of(path);
-    let mut file = tempfile::Builder::new();
-    // A temporary file is private by default; the output is an ordinary file.
-    #[cfg(unix)]
-    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let mut file = file.tempfile_in(directory).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
+    write_all_whole(&[(path, bytes)])
+}
+
+/// Writes several files that belong together; none gets its name before all are written, and the first, which refers to the
+/// others, gets its name last.
+pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    let failed = |path: &Path, error: std::io::Error| {
+        Failure::in_file(path, format!("cannot write: {}", plain(&error)))
+    };
+    let mut written = Vec::with_capacity(outputs.len());
+    for (path, bytes) in outputs {
+        let directory = directory_of(path);
+        let mut file = tempfile::Builder::new();
+        // A temporary file is private by default; the output is an ordinary file.
+        #[cfg(unix)]
+        file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+        let mut file = file.tempfile_in(directory).map_err(|error| failed(path, error))?;
+        file.write_all(bytes).map_err(|error| failed(path, error))?;
+        written.push((path, file));
+    }
+    for (path, file) in written.into_iter().rev() {
+        file.persist(path).map_err(|error| failed(path, error.error))?;
+    }
     Ok(())
 }
 

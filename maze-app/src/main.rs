@@ -8,6 +8,8 @@ mod failure;
 mod files;
 mod game;
 mod input;
+mod maze_file;
+mod picture;
 mod progress;
 mod sidecar;
 mod source;
@@ -44,7 +46,7 @@ enum Command {
     Play(command::play::Arguments),
     /// Load a maze and say what was found in it.
     Info(command::info::Arguments),
-    /// Make a random maze and write it as an OBJ file.
+    /// Make a random maze and write it as a file.
     Generate(command::generate::Arguments),
     /// Play to the goal without a window.
     Autopilot(command::autopilot::Arguments),

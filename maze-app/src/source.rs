@@ -1,11 +1,10 @@
 //! Where a maze comes from: a file, or a seed.
 
 use crate::failure::Failure;
-use crate::files;
-use crate::progress::Progress;
+use crate::maze_file::{self, Loaded};
 use crate::sidecar::Sidecar;
 use clap::Args;
-use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude, import, layout};
+use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude, layout};
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -15,7 +14,7 @@ pub(crate) struct ReadArguments {
     /// Ball radius in corridors, 0.02 to 0.49 [default: 0.35]
     #[arg(long, value_name = "R", value_parser = parse_radius)]
     ball_radius: Option<Radius>,
-    /// Axis of the file that points out of the board [default: the one along which the file is flattest]
+    /// Axis of an .obj that points out of the board [default: the one along which the file is flattest]
     #[arg(long, value_name = "AXIS", value_parser = parse_up_axis)]
     up: Option<UpAxis>,
 }
@@ -23,7 +22,7 @@ pub(crate) struct ReadArguments {
 /// Which maze: a file, or a seed.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct MazeArguments {
-    /// A maze (.obj); without one, a random maze
+    /// A maze (.obj, .svg, .txt, .png or .bmp); without one, a random maze
     #[arg(conflicts_with_all = ["random", "seed", "size"])]
     file: Option<PathBuf>,
     #[command(flatten)]
@@ -59,18 +58,8 @@ impl ReadArguments {
     }
 
     /// Reads a maze file and the sidecar beside it; the kind is told by its name's ending.
-    pub(crate) fn load(&self, path: &Path) -> Result<Maze, Failure> {
-        if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj")) {
-            return Err(Failure::in_file(path, "not a maze file: expected a name that ends in .obj"));
-        }
-        let options = self.options(&Sidecar::beside(path)?);
-        let progress = Progress::of_file(path);
-        progress.tell("reading");
-        let in_file = |error: &dyn std::fmt::Display| Failure::in_file(path, error);
-        // The bytes are gone before the maze is put together: both are large.
-        let mesh = import::obj::read(&files::read(path)?).map_err(|error| in_file(&error))?;
-        Maze::from_polygons_step_by_step(&mesh, &options, &mut |stage| progress.tell(stage.name()))
-            .map_err(|error| in_file(&error))
+    pub(crate) fn load(&self, path: &Path) -> Result<Loaded, Failure> {
+        maze_file::load(path, &self.options(&Sidecar::beside(path)?))
     }
 
     /// The maze of a seed.
@@ -103,6 +92,11 @@ impl Source {
         Self { read: arguments.read.clone(), kind }
     }
 
+    /// A file, read as the last one was.
+    pub(crate) fn of_file(&self, path: PathBuf) -> Self {
+        Self { read: self.read.clone(), kind: Kind::File(path) }
+    }
+
     /// The words, one a line, that give this maze again on the command line.
     pub(crate) fn words(&self) -> Result<String, Failure> {
         let mut words = self.read.words();
@@ -123,7 +117,7 @@ impl Source {
 
     pub(crate) fn load(&self) -> Result<Maze, Failure> {
         match &self.kind {
-            Kind::File(path) => self.read.load(path),
+            Kind::File(path) => Ok(self.read.load(path)?.maze),
             Kind::Random { size, seed } => self.read.generate(*size, *seed),
         }
     }

@@ -100,6 +100,61 @@ fn generate_gives_the_same_file_for_the_same_seed() {
     assert_ne!(make("a.obj", "7"), make("c.obj", "8"));
 }
 
+const TEXT_MAZE: &str = "#######\n#S    #\n# ### #\n#   #G#\n#######\n";
+
+#[test]
+fn a_text_and_its_picture_are_the_same_maze() {
+    let lines: Vec<&[u8]> = TEXT_MAZE.lines().map(str::as_bytes).collect();
+    let is_wall = |x: u32, y: u32| lines[y as usize / 3][x as usize / 3] == b'#';
+    let picture =
+        image::GrayImage::from_fn(21, 15, |x, y| image::Luma([if is_wall(x, y) { 0 } else { 255 }]));
+    let (directory, text) = file("maze.txt", TEXT_MAZE.as_bytes());
+    let text = json(&["info", &text, "--json"]);
+    assert_eq!(
+        (&text["start"], &text["goal"]),
+        (&serde_json::json!([-2.0, 1.0]), &serde_json::json!([2.0, -1.0]))
+    );
+    for name in ["maze.png", "maze.BMP"] {
+        let path = directory.path().join(name);
+        picture.save(&path).unwrap();
+        let picture = json(&["info", path.to_str().unwrap(), "--json"]);
+        assert_eq!(picture["planes"], text["planes"]);
+        assert_eq!(picture["found"], "21 x 15 pixels, 7 x 5 cells of 3 x 3 pixels");
+    }
+    let path = directory.path().join("maze.txt").display().to_string();
+    assert_eq!(json(&["autopilot", &path, "--json"])["finished"], true);
+    refused(&mut maze_app(&["info", &path, "--up", "y"]), "--up is for .obj files");
+}
+
+#[test]
+fn generated_files_of_all_kinds_are_mazes_of_the_same_passages() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).display().to_string();
+    let generate = |name: &str, more: &[&str]| {
+        let out = path(name);
+        let arguments =
+            [&["generate", "--size", "6x5", "--seed", "3", "--doors", "--out", &out], more].concat();
+        assert!(maze_app(&arguments).output().unwrap().status.success());
+        json(&["info", &out, "--json"])
+    };
+    let svg = generate("maze.svg", &["--solution"]);
+    assert!(
+        svg["found"].as_str().unwrap().starts_with("6 x 5 cells of 16 x 16; the solution drawn in it, "),
+        "{svg}"
+    );
+    let (obj, text) = (generate("maze.obj", &[]), generate("maze.txt", &[]));
+    assert_eq!((&obj["planes"], &obj["start"], &obj["goal"]), (&svg["planes"], &svg["start"], &svg["goal"]));
+    assert_eq!((&text["planes"], &text["openings"].as_array().unwrap().len()), (&svg["planes"], &2));
+    let mut names = names_in(directory.path());
+    names.sort();
+    assert_eq!(names, ["maze-app.mtl", "maze.obj", "maze.svg", "maze.txt"]);
+    let text = std::fs::read_to_string(path("maze.obj")).unwrap();
+    assert!(text.contains("\nmtllib maze-app.mtl\n") && text.contains("\ng wall\nusemtl wall\n"));
+    refused(&mut maze_app(&["generate", "--out", &path("maze.stl")]), "ends in .obj, .svg or .txt");
+    let with_solution = ["generate", "--out", &path("way.txt"), "--solution"];
+    refused(&mut maze_app(&with_solution), "--solution is drawn in .svg files only");
+}
+
 #[test]
 fn the_default_maze_is_what_its_first_line_says() {
     let text = std::fs::read_to_string(DEFAULT_MAZE).unwrap();
@@ -229,7 +284,7 @@ fn bad_usage_is_one_line() {
 fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
     let square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
     let slanted = format!("{square}v 0 0 1\nf 1 2 3 4\nf 2 3 5\n");
-    let cases: [(&str, &[u8], &str); 9] = [
+    let cases: [(&str, &[u8], &str); 19] = [
         ("empty.obj", b"", "empty.obj: the file is empty"),
         ("binary.obj", b"\x7fELF\0\0", "binary.obj: not a text file"),
         ("vertices_only.obj", square.as_bytes(), "no faces: expected walls"),
@@ -238,7 +293,17 @@ fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
         ("words.obj", b"v one two three\n", "line 1: expected `v X Y Z`"),
         ("flat.obj", &[square.as_bytes(), b"f 1 2 3 4\n"].concat(), "no walls"),
         ("slanted.obj", slanted.as_bytes(), "not a maze of axis-aligned walls"),
-        ("maze.stl", square.as_bytes(), "expected a name that ends in .obj"),
+        ("maze.stl", square.as_bytes(), "expected a name that ends in .obj, .svg, .txt, .png or .bmp"),
+        ("maze", square.as_bytes(), "expected a name that ends in .obj, .svg, .txt, .png or .bmp"),
+        ("page.svg", b"<html>\n</html>", "page.svg: line 1: the root element is <html>: expected <svg>"),
+        ("cut.svg", b"<svg>\n<line x1=\"2\"/>", "line 2: not well-formed XML"),
+        ("letters.txt", b"###\n#x#\n", "letters.txt: line 2, column 2: found 'x'"),
+        ("hole.txt", b"#####\n#SO #\n", "line 2, column 3: `O` is reserved for holes"),
+        ("solid.txt", b"###\n###\n", "solid.txt: no corridor"),
+        ("short.png", b"\x89PNG\r\n\x1a\n", "expected a PNG or BMP picture"),
+        ("text.bmp", b"###\n", "text.bmp: not a PNG or BMP picture"),
+        ("drawing.txt", b"<svg/>", "drawing.txt: is named .txt, but what it holds is .svg: rename it"),
+        ("picture.obj", b"\x89PNG\r\n\x1a\n", "is named .obj, but what it holds is .png: rename it"),
     ];
     for (name, bytes, expected) in cases {
         let (directory, path) = file(name, bytes);
@@ -263,9 +328,12 @@ fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
 #[test]
 fn truncated_maze_files_are_refused() {
     let whole = std::fs::read(DEFAULT_MAZE).unwrap();
-    for part in [2, 3, 5, 10] {
+    // The first half of the file holds no face.
+    for (part, expected) in
+        [(2, "no faces"), (3, "cut off"), (5, "cut off"), (10, "cut off"), (50, "cut off")]
+    {
         let (_directory, path) = file("cut.obj", &whole[..whole.len() * (part - 1) / part]);
-        refused(&mut maze_app(&["info", &path]), "cut off");
+        refused(&mut maze_app(&["info", &path]), expected);
     }
 }
 

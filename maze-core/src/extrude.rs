@@ -1,5 +1,6 @@
-//! Layout -> polygons: walls, tops and floor.
+//! Layouts and blocks -> polygons: walls, tops and floor.
 
+use crate::blocks::{Blocks, to_f64};
 use crate::layout::Layout;
 use crate::polygons::PolygonMesh;
 use nalgebra::Vector3;
@@ -13,86 +14,157 @@ pub const WALL_HEIGHT: f64 = 0.55;
 
 /// Coordinate of the k-th wall line or corridor edge: even k starts a wall, odd k a corridor.
 fn line(k: usize) -> f64 {
-    #[allow(clippy::cast_precision_loss, reason = "a layout has at most 2^20 cells")]
-    let [n_walls, n_corridors] = [k.div_ceil(2) as f64, (k / 2) as f64];
+    let [n_walls, n_corridors] = [to_f64(k.div_ceil(2)), to_f64(k / 2)];
     n_walls * WALL_THICKNESS + n_corridors * CORRIDOR
 }
 
-/// The grid of a layout: posts, walls and corridors in turn, `2 n + 1` along each axis.
-struct Grid<'a>(&'a Layout);
+/// The layout as a mesh: floor, the walls' sides where they face free space, and their tops; +z is up.
+pub fn extrude(layout: &Layout) -> PolygonMesh {
+    let blocks = Blocks::of_layout(layout);
+    let lines = |n_blocks| (0..=n_blocks).map(line).collect();
+    let [xs, ys] = [lines(blocks.width()), lines(blocks.height())];
+    Grid { xs, ys, height: WALL_HEIGHT, is_wall: |i, j| blocks.is_wall(i, j) }.mesh()
+}
 
-impl Grid<'_> {
+/// Blocks of 1 unit as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece.
+pub(crate) fn extrude_blocks(blocks: &Blocks, xs: &[usize], ys: &[usize], height: f64) -> PolygonMesh {
+    let lines = |edges: &[usize]| edges.iter().map(|edge| to_f64(*edge)).collect();
+    Grid { xs: lines(xs), ys: lines(ys), height, is_wall: |i, j| blocks.is_wall(xs[i], ys[j]) }.mesh()
+}
+
+/// Rectangles between lines, each wall or free.
+struct Grid<W> {
+    xs: Vec<f64>,
+    ys: Vec<f64>,
+    height: f64,
+    is_wall: W, // (i, j): the rectangle right of xs[i] and above ys[j]
+}
+
+impl<W: Fn(usize, usize) -> bool> Grid<W> {
+    /// Number of rectangles along x and y.
     fn size(&self) -> [usize; 2] {
-        [2 * self.0.width() + 1, 2 * self.0.height() + 1]
+        [self.xs.len().saturating_sub(1), self.ys.len().saturating_sub(1)]
     }
 
-    fn is_wall(&self, i: usize, j: usize) -> bool {
+    /// Whether a place is wall; beyond the grid nothing is.
+    fn at(&self, i: Option<usize>, j: Option<usize>) -> bool {
         let [n_x, n_y] = self.size();
-        if i == 0 || j == 0 || i + 1 == n_x || j + 1 == n_y {
-            return true;
-        }
-        match (i % 2, j % 2) {
-            (1, 1) => false,
-            (0, 1) => !self.0.is_open_east(i / 2 - 1, j / 2),
-            (1, 0) => !self.0.is_open_north(i / 2, j / 2 - 1),
-            _ => true,
-        }
+        i.zip(j).is_some_and(|(i, j)| i < n_x && j < n_y && (self.is_wall)(i, j))
     }
 
-    /// Whether a wall's side towards this place shows.
-    fn is_outside_or_free(&self, i: Option<usize>, j: Option<usize>) -> bool {
+    /// One floor under everything; tops and sides in pieces as large as can be, so that a mesh is no larger than its maze.
+    /// They come floor first, then tops, then sides.
+    fn mesh(&self) -> PolygonMesh {
         let [n_x, n_y] = self.size();
-        match (i, j) {
-            (Some(i), Some(j)) if i < n_x && j < n_y => !self.is_wall(i, j),
-            _ => true,
+        let mut corners =
+            Corners { grid: self, numbers: vec![UNUSED; 2 * (n_x + 1) * (n_y + 1)], positions: Vec::new() };
+        let mut faces: Vec<[u32; 4]> = Vec::new();
+        if 0 < n_x && 0 < n_y {
+            faces.push([(0, 0), (n_x, 0), (n_x, n_y), (0, n_y)].map(|(i, j)| corners.number(i, j, 0)));
         }
+        for [low, high, left, right] in self.tops() {
+            faces.push(
+                [(left, low), (right, low), (right, high), (left, high)]
+                    .map(|(i, j)| corners.number(i, j, 1)),
+            );
+        }
+        for [from, to] in self.sides() {
+            let [a, b, c, d] = [(from, 0), (to, 0), (to, 1), (from, 1)];
+            faces.push([a, b, c, d].map(|((i, j), level)| corners.number(i, j, level)));
+        }
+        // Coordinates are finite and countable, and corners are numbered positions.
+        let mut mesh = PolygonMesh::new(corners.positions).unwrap_or_default();
+        let all_known = faces.iter().all(|face| mesh.push_face(face));
+        debug_assert!(all_known, "every corner is a position");
+        mesh
+    }
+
+    /// Rectangles of wall, as rows from and to, columns from and to: runs of a row that the next rows go on with.
+    fn tops(&self) -> Vec<[usize; 4]> {
+        let [n_x, n_y] = self.size();
+        let mut tops: Vec<[usize; 4]> = Vec::new();
+        let mut open: Vec<[usize; 3]> = Vec::new(); // row from, columns from and to, in the row before
+        for j in 0..=n_y {
+            let row: Vec<[usize; 2]> = runs(n_x, |i| j < n_y && (self.is_wall)(i, j)).collect();
+            let mut before = open.iter().peekable();
+            let mut next = Vec::with_capacity(row.len());
+            for [left, right] in row {
+                // Both rows are in order: what lies left of this run has ended.
+                while let Some(ended) = before.next_if(|open| open[1] < left) {
+                    tops.push([ended[0], j, ended[1], ended[2]]);
+                }
+                match before.next_if(|open| open[1] == left) {
+                    Some(same) if same[2] == right => next.push(*same),
+                    other => {
+                        tops.extend(other.map(|ended| [ended[0], j, ended[1], ended[2]]));
+                        next.push([j, left, right]);
+                    }
+                }
+            }
+            tops.extend(before.map(|ended| [ended[0], j, ended[1], ended[2]]));
+            open = next;
+        }
+        tops
+    }
+
+    /// Runs of sides that look the same way, from and to, counter-clockwise around the wall.
+    fn sides(&self) -> Vec<[(usize, usize); 2]> {
+        let [n_x, n_y] = self.size();
+        let mut sides = Vec::new();
+        for j in 0..=n_y {
+            let (below, above) = (j.checked_sub(1), Some(j));
+            let looks_down = |i: usize| self.at(Some(i), above) && !self.at(Some(i), below);
+            let looks_up = |i: usize| self.at(Some(i), below) && !self.at(Some(i), above);
+            sides.extend(runs(n_x, looks_down).map(|[from, to]| [(from, j), (to, j)]));
+            sides.extend(runs(n_x, looks_up).map(|[from, to]| [(to, j), (from, j)]));
+        }
+        for i in 0..=n_x {
+            let (left, right) = (i.checked_sub(1), Some(i));
+            let looks_left = |j: usize| self.at(right, Some(j)) && !self.at(left, Some(j));
+            let looks_right = |j: usize| self.at(left, Some(j)) && !self.at(right, Some(j));
+            sides.extend(runs(n_y, looks_left).map(|[from, to]| [(i, to), (i, from)]));
+            sides.extend(runs(n_y, looks_right).map(|[from, to]| [(i, from), (i, to)]));
+        }
+        sides
     }
 }
 
-/// The layout as a mesh: floor, the walls' sides where they face free space, and their tops; +z is up.
-///
-/// Faces are one grid cell each, so that edges meet corner to corner and no crack shows between them.
-pub fn extrude(layout: &Layout) -> PolygonMesh {
-    let grid = Grid(layout);
-    let [n_x, n_y] = grid.size();
-    let levels = [0.0, WALL_HEIGHT];
-    let position = |index: usize| {
-        let (level, rest) = (index % 2, index / 2);
-        Vector3::new(line(rest % (n_x + 1)), line(rest / (n_x + 1)), levels[level])
-    };
-    let positions = (0..2 * (n_x + 1) * (n_y + 1)).map(position).collect();
-    // A layout's size keeps positions and corners countable, and corners lie on the grid.
-    let mut mesh = PolygonMesh::new(positions).unwrap_or_default();
-    // A layout of 2^20 cells has at most 2 (2 + 2) (2^21 + 2) corners.
-    #[allow(clippy::cast_possible_truncation, reason = "at most 2^25")]
-    let corner = |i: usize, j: usize, level: usize| ((j * (n_x + 1) + i) * 2 + level) as u32;
-    let mut all_known = true;
-    for j in 0..n_y {
-        for i in 0..n_x {
-            let level = usize::from(grid.is_wall(i, j));
-            let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
-            let quad = [a, b, c, d].map(|(i, j)| corner(i, j, level));
-            all_known &= mesh.push_face(&quad);
-            if level == 0 {
-                continue;
-            }
-            let sides = [
-                (a, b, (Some(i), j.checked_sub(1))),
-                (b, c, (Some(i + 1), Some(j))),
-                (c, d, (Some(i), Some(j + 1))),
-                (d, a, (i.checked_sub(1), Some(j))),
-            ];
-            for (from, to, beside) in sides {
-                if grid.is_outside_or_free(beside.0, beside.1) {
-                    let bottom = [from, to].map(|(i, j)| corner(i, j, 0));
-                    let top = [to, from].map(|(i, j)| corner(i, j, 1));
-                    all_known &= mesh.push_face(&[bottom[0], bottom[1], top[0], top[1]]);
-                }
-            }
+/// A corner of the grid that no face uses so far.
+const UNUSED: u32 = u32::MAX;
+
+/// Numbers the corners in the order of their first use.
+struct Corners<'a, W> {
+    grid: &'a Grid<W>,
+    numbers: Vec<u32>, // [2 * (j * (n_x + 1) + i) + level]
+    positions: Vec<Vector3<f64>>,
+}
+
+impl<W> Corners<'_, W> {
+    fn number(&mut self, i: usize, j: usize, level: usize) -> u32 {
+        let number = &mut self.numbers[2 * (j * self.grid.xs.len() + i) + level];
+        if *number == UNUSED {
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "a layout has at most 2 (2 * 2^10 + 2)^2 corners"
+            )]
+            let next = self.positions.len() as u32;
+            *number = next;
+            let z = if level == 0 { 0.0 } else { self.grid.height };
+            self.positions.push(Vector3::new(self.grid.xs[i], self.grid.ys[j], z));
         }
+        *number
     }
-    debug_assert!(all_known, "every corner lies on the grid");
-    mesh
+}
+
+/// Maximal runs of what holds in `0..n`, as start and end.
+pub(crate) fn runs(n: usize, holds: impl Fn(usize) -> bool) -> impl Iterator<Item = [usize; 2]> {
+    let mut next = 0;
+    std::iter::from_fn(move || {
+        let start = (next..n).find(|at| holds(*at))?;
+        let end = (start..n).find(|at| !holds(*at)).unwrap_or(n);
+        next = end;
+        Some([start, end])
+    })
 }
 
 #[cfg(test)]

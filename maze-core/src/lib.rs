@@ -38,6 +38,7 @@
 mod assemble;
 mod autopilot;
 mod ball;
+mod blocks;
 mod board;
 pub mod contact;
 mod draft;
@@ -68,6 +69,7 @@ mod winding;
 pub use assemble::{AssembleError, AssembleOptions, Stage};
 pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
+pub use blocks::{Blocks, BlocksError};
 pub use draft::SectionError;
 pub use engine::{Continuous, Engine, Hit, Published, Tick};
 pub use gravity::Tilt;

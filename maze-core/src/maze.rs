@@ -81,3 +81,22 @@ pub struct Maze {
     /// Part of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
     pub doubtful_part: f64,
 }
+
+/// How far from a wished start or goal the ball may be put (units): where a corridor is several blocks wide, the ball's
+/// centre does not get to the middle of the blocks beside a wall.
+const MAX_SHIFT: f64 = 0.5;
+
+impl Maze {
+    /// The same maze from another start to another goal (units), each the nearest place to the wished one where the ball
+    /// fits.
+    ///
+    /// # Errors
+    /// 0 when the ball fits nowhere near the start, 1 when it does not near the goal.
+    pub(crate) fn with_ends(mut self, start: Vector2<f64>, goal: Vector2<f64>) -> Result<Self, usize> {
+        let (from, start) = self.reach.nearest(start, MAX_SHIFT).ok_or(0_usize)?;
+        let (to, goal) = self.reach.nearest(goal, MAX_SHIFT).ok_or(1_usize)?;
+        self.solvable = self.reach.distances_from(from).to(to).is_finite();
+        (self.start, self.goal) = (start, goal);
+        Ok(self)
+    }
+}

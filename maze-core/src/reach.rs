@@ -102,6 +102,26 @@ impl Reach {
         .find(|cell| self.free[*cell])
     }
 
+    /// The free cell nearest to a point, and the place in it that is; `None` when it is farther away than `within`.
+    pub(crate) fn nearest(&self, point: Vector2<f64>, within: f64) -> Option<(usize, Vector2<f64>)> {
+        let into = |value: f64, low: f64, high: f64| match value {
+            _ if value < low => low,
+            _ if high < value => high,
+            _ => value,
+        };
+        let mut nearest: Option<(f64, usize, Vector2<f64>)> = None;
+        for (cell, _) in self.free.iter().enumerate().filter(|(_, free)| **free) {
+            let (i, j) = (cell % self.n_x(), cell / self.n_x());
+            let x = into(point.x, self.xs[i], self.xs[i + 1]);
+            let place = Vector2::new(x, into(point.y, self.ys[j], self.ys[j + 1]));
+            let distance = (place - point).norm();
+            if distance <= within && nearest.is_none_or(|(known, _, _)| distance < known) {
+                nearest = Some((distance, cell, place));
+            }
+        }
+        nearest.map(|(_, cell, place)| (cell, place))
+    }
+
     /// The free cells beside a cell.
     pub(crate) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
         let n_x = self.n_x();

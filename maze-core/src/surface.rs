@@ -20,6 +20,15 @@ pub enum Surface {
 impl Surface {
     /// Every surface, in the order of [`SurfaceMesh::indices`].
     pub const ALL: [Self; 3] = [Self::Wall, Self::Top, Self::Floor];
+
+    /// `wall`, `top` or `floor`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Wall => "wall",
+            Self::Top => "top",
+            Self::Floor => "floor",
+        }
+    }
 }
 
 /// A corner of a drawn triangle.

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
+use crate::maze_file::Loaded;
 use crate::source::ReadArguments;
 use clap::Args;
 use maze_core::{FaceNote, Facing, Maze, Plane};
@@ -9,10 +10,12 @@ use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 
 #[derive(Args)]
-#[command(after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.obj --planes +y\n\n\
-                        Exit status 1 when no way leads from start to goal.")]
+#[command(
+    after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.svg --json\n  maze-app info my_maze.obj --planes +y\n\n\
+                        Exit status 1 when no way leads from start to goal."
+)]
 pub(crate) struct Arguments {
-    /// A maze (.obj)
+    /// A maze (.obj, .svg, .txt, .png or .bmp)
     file: PathBuf,
     #[command(flatten)]
     read: ReadArguments,
@@ -30,14 +33,16 @@ fn parse_facing(text: &str) -> Result<Facing, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let maze = arguments.read.load(&arguments.file)?;
+    let Loaded { maze, found } = arguments.read.load(&arguments.file)?;
     let text = match (arguments.planes, arguments.json) {
         (Some(facing), true) => {
             format!("{}\n", json!({ "facing": facing.name(), "planes": table(&maze, facing) }))
         }
         (Some(facing), false) => table_text(&maze, facing),
-        (None, true) => format!("{}\n", summary(&maze)),
-        (None, false) => summary_text(&maze),
+        (None, true) => format!("{}\n", summary(&maze, found.as_deref())),
+        (None, false) => {
+            found.map_or_else(String::new, |found| format!("found        {found}\n")) + &summary_text(&maze)
+        }
     };
     files::print(&text)?;
     if maze.solvable {
@@ -82,7 +87,7 @@ fn by_facing(count: impl Fn(Facing) -> usize) -> Value {
     )
 }
 
-fn summary(maze: &Maze) -> Value {
+fn summary(maze: &Maze, found: Option<&str>) -> Value {
     let point = |point: nalgebra::Vector2<f64>| json!([point.x, point.y]);
     let notes = |notes: &[FaceNote]| {
         let note = |note: &FaceNote| json!({ "reason": note.reason, "faces": note.n_faces, "area_part": note.area_part });
@@ -92,6 +97,7 @@ fn summary(maze: &Maze) -> Value {
         json!({ "facing": opening.facing.name(), "offset": opening.offset, "start": opening.start, "end": opening.end })
     });
     json!({
+        "found": found,
         "planes": by_facing(|facing| maze.planes.n_planes(facing)),
         "rows": by_facing(|facing| maze.planes.n_rows(facing)),
         "bounds": { "low": point(maze.bounds.low), "high": point(maze.bounds.high) },

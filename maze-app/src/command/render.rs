@@ -22,7 +22,7 @@ const MAX_TILT_DEGREES: f64 = 45.0;
 #[derive(Args)]
 #[command(after_help = "Example:\n  maze-app render my_maze.obj --out picture.png --tilt 8,-5 --ticks 60")]
 pub(crate) struct Arguments {
-    /// A maze (.obj)
+    /// A maze (.obj, .svg, .txt, .png or .bmp)
     file: PathBuf,
     #[command(flatten)]
     read: ReadArguments,
@@ -65,7 +65,7 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
     let textures = sidecar::textures(arguments.textures.as_deref(), Some(&arguments.file))?;
-    let mut game = Game::new(arguments.read.load(&arguments.file)?, arguments.engine)?;
+    let mut game = Game::new(arguments.read.load(&arguments.file)?.maze, arguments.engine)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;
     }

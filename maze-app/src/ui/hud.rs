@@ -37,6 +37,8 @@ pub(crate) struct Hud<'a> {
     /// Whether N brings another maze.
     pub(crate) has_next: bool,
     pub(crate) help: bool,
+    /// What went wrong, while it is worth saying.
+    pub(crate) notice: Option<&'a str>,
 }
 
 /// Once for a context: dark glass, warm text.
@@ -63,6 +65,12 @@ impl Hud<'_> {
         self.clock(ui.ctx());
         if self.phase == Phase::Finished {
             self.goal_reached(ui.ctx());
+        }
+        if let Some(notice) = self.notice {
+            area(ui.ctx(), "notice", Align2::CENTER_TOP, vec2(0.0, 6.0 * MARGIN), |ui| {
+                ui.set_max_width(0.7 * screen.width());
+                ui.label(RichText::new(notice).color(GOLD));
+            });
         }
         if is_small([screen.width(), screen.height()]) {
             return;

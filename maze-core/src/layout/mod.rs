@@ -1,8 +1,13 @@
 //! Grid mazes: cells, and which of them are joined.
 
+mod door;
 mod generate;
+mod way;
 
+pub use door::{Door, Side};
 pub use generate::recursive_backtracker;
+
+use std::collections::BTreeSet;
 
 /// Most cells of a layout along each side.
 const MAX_SIDE: usize = 1024;
@@ -14,6 +19,7 @@ pub struct Layout {
     height: usize,
     east: Vec<bool>,  // [y * width + x]: a passage to the cell on the right
     north: Vec<bool>, // [y * width + x]: a passage to the cell above
+    doors: BTreeSet<Door>,
 }
 
 /// A size that no layout has.
@@ -35,7 +41,8 @@ impl Layout {
         let fits = width <= MAX_SIDE && height <= MAX_SIDE;
         match width.checked_mul(height) {
             Some(n_cells) if fits && 2 <= n_cells => {
-                Ok(Self { width, height, east: vec![false; n_cells], north: vec![false; n_cells] })
+                let [east, north] = [vec![false; n_cells], vec![false; n_cells]];
+                Ok(Self { width, height, east, north, doors: BTreeSet::new() })
             }
             _ => Err(LayoutSizeError { width, height }),
         }
@@ -66,8 +73,36 @@ impl Layout {
         self.east.iter().chain(&self.north).filter(|open| **open).count()
     }
 
+    /// Where the outer wall is open, each place once, in a fixed order.
+    pub fn doors(&self) -> impl ExactSizeIterator<Item = Door> + '_ {
+        self.doors.iter().copied()
+    }
+
+    /// Whether the outer wall is open there.
+    pub fn has_door(&self, side: Side, index: usize) -> bool {
+        self.doors.contains(&Door { side, index })
+    }
+
+    /// Opens the outer wall; false (and nothing opened) when there is no cell behind the door.
+    #[must_use]
+    pub fn open_door(&mut self, door: Door) -> bool {
+        let known = door.cell(self.width, self.height).is_some();
+        if known {
+            self.doors.insert(door);
+        }
+        known
+    }
+
+    /// Opens the middle of the top and of the bottom side, where mazegenerator.net puts start and goal.
+    #[must_use]
+    pub fn with_doors_top_and_bottom(mut self) -> Self {
+        self.doors.insert(Door { side: Side::Top, index: (self.width - 1) / 2 });
+        self.doors.insert(Door { side: Side::Bottom, index: self.width / 2 });
+        self
+    }
+
     /// Joins two neighbours, given as indices `y * width + x`.
-    fn join(&mut self, a: usize, b: usize) {
+    pub(crate) fn join(&mut self, a: usize, b: usize) {
         let low = if a < b { a } else { b };
         if a.abs_diff(b) == 1 && self.width != 1 {
             self.east[low] = true;

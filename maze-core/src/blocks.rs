@@ -1,0 +1,194 @@
+//! Mazes of square blocks, each wall or free: text and pictures, and the grid behind a [`Layout`].
+
+use crate::assemble::{AssembleError, AssembleOptions};
+use crate::extrude::{self, WALL_HEIGHT};
+use crate::layout::{Layout, Side};
+use crate::maze::Maze;
+use crate::polygons::{PolygonMesh, UpAxis};
+use nalgebra::Vector2;
+
+/// Most rectangles that the lines along the blocks' edges may make: a maze of 200 x 200 cells has 401 x 401.
+const MAX_PIECES: usize = 1 << 18;
+
+/// Most faces of walls, each as long as can be: a maze of 200 x 200 cells has some 90 thousand. A few bytes of a picture can
+/// ask for any number of them, and it takes some 300 bytes each to find the way between them.
+const MAX_FACES: usize = 160_000;
+
+/// A rectangle of blocks. Row 0 is the lowest.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Blocks {
+    width: usize,
+    height: usize,
+    wall: Vec<bool>,               // [y * width + x]
+    ends: Option<[[usize; 2]; 2]>, // free blocks: start and goal
+}
+
+/// Why blocks are no maze.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum BlocksError {
+    /// Too much detail.
+    #[error("{n_x} x {n_y} distinct wall edges: expected at most {max} rectangles between them", max = MAX_PIECES)]
+    TooFine {
+        /// Columns that differ from the one before.
+        n_x: usize,
+        /// Rows that differ from the one before.
+        n_y: usize,
+    },
+    /// Start or goal lies beyond the walls, or the ball does not fit there.
+    #[error(
+        "line {line}, column {column}: the ball does not fit at `{name}`: expected a free place between the walls"
+    )]
+    NoRoomAt {
+        /// Counted from 1 at the top.
+        line: usize,
+        /// Counted from 1.
+        column: usize,
+        /// `S` or `G`.
+        name: char,
+    },
+    /// Too large.
+    #[error("a maze of {n_faces} wall faces: expected at most {max}", max = MAX_FACES)]
+    TooLarge {
+        /// Sides and tops, each as long as can be.
+        n_faces: usize,
+    },
+    /// The walls make no maze.
+    #[error(transparent)]
+    Assemble(#[from] AssembleError),
+}
+
+impl Blocks {
+    /// Blocks row by row from the lowest; `ends` are start and goal as (x, y), both free.
+    ///
+    /// `None` unless there are `width * height` of them, and the ends lie on free ones.
+    pub(crate) fn new(
+        width: usize,
+        height: usize,
+        wall: Vec<bool>,
+        ends: Option<[[usize; 2]; 2]>,
+    ) -> Option<Self> {
+        let is_free = |[x, y]: &[usize; 2]| *x < width && *y < height && !wall[y * width + x];
+        let fits = width.checked_mul(height) == Some(wall.len());
+        let fits = fits && ends.iter().flatten().all(is_free);
+        fits.then_some(Self { width, height, wall, ends })
+    }
+
+    /// Posts, walls and corridors of a layout in turn, `2 n + 1` blocks along each axis; its doors are gaps.
+    pub fn of_layout(layout: &Layout) -> Self {
+        let [width, height] = [2 * layout.width() + 1, 2 * layout.height() + 1];
+        let is_wall = |i: usize, j: usize| match (i % 2, j % 2) {
+            (1, 1) => false,
+            (0, 1) if i == 0 => !layout.has_door(Side::Left, j / 2),
+            (0, 1) if i + 1 == width => !layout.has_door(Side::Right, j / 2),
+            (0, 1) => !layout.is_open_east(i / 2 - 1, j / 2),
+            (1, 0) if j == 0 => !layout.has_door(Side::Bottom, i / 2),
+            (1, 0) if j + 1 == height => !layout.has_door(Side::Top, i / 2),
+            (1, 0) => !layout.is_open_north(i / 2, j / 2 - 1),
+            _ => true,
+        };
+        let wall = (0..width * height).map(|index| is_wall(index % width, index / width)).collect();
+        Self { width, height, wall, ends: None }
+    }
+
+    /// Blocks along x.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Blocks along y.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Whether block (x, y) is wall; false beyond the border.
+    pub fn is_wall(&self, x: usize, y: usize) -> bool {
+        x < self.width && y < self.height && self.wall[y * self.width + x]
+    }
+
+    /// Start and goal as (x, y), where they are given.
+    pub fn ends(&self) -> Option<[[usize; 2]; 2]> {
+        self.ends
+    }
+
+    /// The coordinates along x and y at which blocks differ from their neighbours, ascending; nothing when there is no wall.
+    pub(crate) fn edges(&self) -> [Vec<usize>; 2] {
+        let columns = |x: usize| (0..self.height).map(move |y| self.is_wall(x, y));
+        let rows = |y: usize| (0..self.width).map(move |x| self.is_wall(x, y));
+        // Beyond the border nothing is wall: the first column with a wall differs from the one before.
+        let xs = (0..=self.width).filter(|x| match x.checked_sub(1) {
+            None => columns(*x).any(|wall| wall),
+            Some(before) => !columns(before).eq(columns(*x)),
+        });
+        let ys = (0..=self.height).filter(|y| match y.checked_sub(1) {
+            None => rows(*y).any(|wall| wall),
+            Some(before) => !rows(before).eq(rows(*y)),
+        });
+        [xs.collect(), ys.collect()]
+    }
+
+    /// The maze of these blocks. Its up axis is z whatever the options say.
+    ///
+    /// # Errors
+    /// Too many blocks, blocks that make no maze, and ends where the ball does not fit.
+    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
+        let [xs, ys] = self.edges();
+        let of_height = |height| {
+            let mesh = || extrude::extrude_blocks(self, &xs, &ys, height);
+            maze_of_grid([xs.len(), ys.len()], mesh, options)
+        };
+        let mut maze = of_height(WALL_HEIGHT)?;
+        if maze.scale != 1.0 {
+            // Only now it is known how many blocks make a corridor.
+            maze = of_height(WALL_HEIGHT / maze.scale)?;
+        }
+        let Some(ends) = self.ends else { return Ok(maze) };
+        let middle = |values: &[usize]| {
+            let sum = values.first().zip(values.last()).map_or(0, |(low, high)| low + high);
+            to_f64(sum) / 2.0
+        };
+        let points = ends.map(|[x, y]| {
+            let from_middle = Vector2::new(to_f64(x) + 0.5 - middle(&xs), to_f64(y) + 0.5 - middle(&ys));
+            from_middle * maze.scale
+        });
+        // What the user asks for goes before what the file says.
+        let [start, goal] = points;
+        let (start, goal) = (options.start.unwrap_or(start), options.goal.unwrap_or(goal));
+        maze.with_ends(start, goal).map_err(|at| {
+            let ([x, y], name) = (ends[at], ['S', 'G'][at]);
+            BlocksError::NoRoomAt { line: self.height - y, column: x + 1, name }
+        })
+    }
+}
+
+impl Layout {
+    /// The maze of this layout as a file's content may ask for it: not larger than what a file's size justifies.
+    ///
+    /// # Errors
+    /// Too many cells.
+    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
+        let lines = [self.width(), self.height()].map(|n| 2 * n + 2);
+        maze_of_grid(lines, || extrude::extrude(self), options)
+    }
+}
+
+/// The maze of walls between that many lines. Its up axis is z whatever the options say.
+fn maze_of_grid(
+    [n_x, n_y]: [usize; 2],
+    mesh: impl Fn() -> PolygonMesh,
+    options: &AssembleOptions,
+) -> Result<Maze, BlocksError> {
+    if MAX_PIECES < n_x.saturating_mul(n_y) {
+        return Err(BlocksError::TooFine { n_x, n_y });
+    }
+    let mesh = mesh();
+    if MAX_FACES < mesh.n_faces() {
+        return Err(BlocksError::TooLarge { n_faces: mesh.n_faces() });
+    }
+    let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
+    Ok(Maze::from_polygons(&mesh, &options)?)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a side has far fewer than 2^53 blocks")]
+pub(crate) fn to_f64(n: usize) -> f64 {
+    n as f64
+}

@@ -1,0 +1,5 @@
+//! Polygons, layouts and blocks -> text of files.
+
+pub mod obj;
+pub mod svg;
+pub mod text;
