@@ -149,10 +149,10 @@ mod tests {
 
     #[test]
     fn a_room_has_a_way_and_no_numbers_about_corridors() {
-        // Four walls, and a fifth inside at which the coordinates of the room split.
+        // Four walls, and a fifth that parts a corridor from the rest.
         let mut text = String::new();
         let walls = [[0.0, 0.0, 9.0, 1.0], [0.0, 8.0, 9.0, 9.0], [0.0, 1.0, 1.0, 8.0], [8.0, 1.0, 9.0, 8.0]];
-        for (n, [x0, y0, x1, y1]) in walls.into_iter().chain([[4.0, 4.0, 5.0, 5.0]]).enumerate() {
+        for (n, [x0, y0, x1, y1]) in walls.into_iter().chain([[2.0, 1.0, 3.0, 7.0]]).enumerate() {
             for z in [0, 1] {
                 text += &format!("v {x0} {y0} {z}\nv {x1} {y0} {z}\nv {x1} {y1} {z}\nv {x0} {y1} {z}\n");
             }
