@@ -1,45 +1,35 @@
 //! `maze-app generate`: a random maze as a file.
 
 use crate::failure::Failure;
-use crate::files;
-use crate::source::{GridSize, fresh_seed, parse_grid_size};
-use clap::{Args, ValueEnum};
-use maze_core::{export, extrude, layout};
+use crate::recipe::{self, RecipeArguments};
+use crate::{files, measures};
+use clap::Args;
+use maze_core::{AssembleOptions, Maze, export, extrude};
 use std::path::PathBuf;
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  maze-app generate --size 20x12 --seed 7 --out my_maze.obj")]
+#[command(after_help = "Examples:\n  maze-app generate --size 20x12 --seed 7 --out my_maze.obj\n  \
+                        maze-app generate --size 20x12 --algorithm wilson --braid 0.5 --out loops.obj\n  \
+                        maze-app generate --size 20x12 --elitism 30 --river 80 --out rivers.obj")]
 pub(crate) struct Arguments {
-    /// Cells along x and y
-    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
-    size: GridSize,
-    /// How the maze is made
-    #[arg(long, value_enum, default_value_t = Algorithm::Backtracker)]
-    algorithm: Algorithm,
-    /// The same seed gives the same maze [default: a new one]
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
+    #[command(flatten)]
+    recipe: RecipeArguments,
     /// Where to write it; the name ends in .obj
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum Algorithm {
-    /// Recursive backtracker: long winding corridors, few dead ends
-    Backtracker,
-}
-
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "obj")?;
-    let seed = arguments.seed.unwrap_or_else(fresh_seed);
-    let GridSize { width, height } = arguments.size;
-    let layout = match arguments.algorithm {
-        Algorithm::Backtracker => layout::recursive_backtracker(width, height, seed),
-    }
-    .map_err(Failure::bad_input)?;
-    let comment = format!("maze-app generate --size {width}x{height} --algorithm backtracker --seed {seed}");
-    let text = export::to_obj(&extrude::extrude(&layout), &comment);
+    let recipe = arguments.recipe.recipe();
+    let mesh = extrude::extrude(&recipe.layout().map_err(Failure::bad_input)?);
+    // The numbers are those of the maze as it is played.
+    let maze = Maze::from_polygons(&mesh, &AssembleOptions::default()).map_err(Failure::bad_input)?;
+    let words = recipe::words(&recipe).join(" ").replace('=', " ");
+    let text = export::to_obj(&mesh, &format!("maze-app generate {words}"));
     files::write_whole(&arguments.out, text.as_bytes())?;
-    files::print(&format!("{}: {width}x{height} cells, seed {seed}\n", arguments.out.display()))
+    let mut lines =
+        vec![format!("{}: {}x{} cells, {words}", arguments.out.display(), recipe.width, recipe.height)];
+    lines.extend(measures::lines(&maze));
+    files::print(&(lines.join("\n") + "\n"))
 }
