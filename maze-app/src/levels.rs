@@ -10,6 +10,9 @@ const LEVELS: &str = include_str!("../../assets/levels.toml");
 /// How many there are; a test counts them.
 pub(crate) const N_LEVELS: usize = 14;
 
+/// Of the flag that chooses one.
+pub(crate) const HELP: &str = "A level of the game, 1 (gentle) to 14 (hard)";
+
 /// One of them.
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
@@ -74,6 +77,7 @@ mod tests {
     fn every_level_can_be_loaded_and_each_is_about_as_hard_as_the_one_before_or_harder() {
         let file: File = toml::from_str(LEVELS).unwrap();
         assert_eq!(file.level.len(), N_LEVELS);
+        assert!(HELP.contains(&format!("to {N_LEVELS} ")));
         let mut difficulties = Vec::new();
         for number in 1..=N_LEVELS {
             let level = level(number).unwrap();

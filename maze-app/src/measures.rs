@@ -11,17 +11,18 @@ pub(crate) fn lines(maze: &Maze) -> Vec<String> {
         return vec![format!("way          {way_length:.1} corridors long")];
     };
     let Metrics { n_turns, n_dead_ends, n_junctions, n_crossroads, n_loops, .. } = metrics;
+    let dead_ends = match n_dead_ends {
+        0 => "dead ends    none".to_owned(),
+        n => format!("dead ends    {n}, on average {:.1} corridors off the way", metrics.dead_end_length),
+    };
     vec![
-        format!("way          {way_length:.1} corridors long, {n_turns} turns, {}", solutions(&metrics)),
         format!(
-            "straightness {:.2} corridors from turn to turn, {:.0} % of the way is the distance",
-            metrics.straightness,
-            100.0 * metrics.directness
+            "way          {way_length:.1} corridors long (without walls {:.1}), {n_turns} turns, {}",
+            metrics.directness * metrics.solution_length,
+            solutions(&metrics)
         ),
-        format!(
-            "dead ends    {n_dead_ends}, on average {:.1} corridors off the way",
-            metrics.dead_end_length
-        ),
+        format!("straightness {:.2} corridors from turn to turn", metrics.straightness),
+        dead_ends,
         format!("junctions    {n_junctions}, crossroads {n_crossroads}, loops {n_loops}"),
         format!("difficulty   {:.1} (after McClendon 2001)", metrics.difficulty),
     ]

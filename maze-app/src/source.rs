@@ -28,8 +28,7 @@ pub(crate) struct MazeArguments {
     file: Option<PathBuf>,
     #[command(flatten)]
     read: ReadArguments,
-    /// A level of the game, 1 to 14
-    #[arg(long, value_name = "N", value_parser = levels::parse_level)]
+    #[arg(long, value_name = "N", value_parser = levels::parse_level, help = levels::HELP)]
     #[arg(conflicts_with_all = RECIPE_ARGUMENTS, conflicts_with = "random")]
     level: Option<usize>,
     /// A random maze (what happens anyway without a FILE)
@@ -45,8 +44,7 @@ pub(crate) struct KnownMazeArguments {
     /// A maze (.obj)
     #[arg(required_unless_present = "level", conflicts_with = "level")]
     file: Option<PathBuf>,
-    /// A level of the game, 1 to 14
-    #[arg(long, value_name = "N", value_parser = levels::parse_level)]
+    #[arg(long, value_name = "N", value_parser = levels::parse_level, help = levels::HELP)]
     level: Option<usize>,
     #[command(flatten)]
     read: ReadArguments,

@@ -256,6 +256,30 @@ fn the_goal_stops_the_clock_and_r_starts_again() {
 }
 
 #[test]
+fn keys_go_through_the_levels_and_on_from_the_goal() {
+    let mut session = Session::open(&["--size", "2x1"]);
+    let start = session.last();
+    session.xdotool(&["key", "Return"]);
+    session.expect_alive("Enter before the goal");
+    assert_eq!(session.last().position, start.position, "Enter goes on from the goal only");
+    session.xdotool(&["keydown", if start.position[0] < 0.0 { "Right" } else { "Left" }]);
+    session.wait_for("the goal", |state| state.phase == "finished");
+    session.xdotool(&["key", "Return"]);
+    session.wait_for("Enter to bring a new maze", |state| state.phase != "finished");
+    for (key, title) in [("Next", "Level 1 "), ("Next", "Level 2 "), ("n", "Level 3 "), ("Prior", "Level 2 ")]
+    {
+        session.xdotool(&["key", key]);
+        until(title, || {
+            let windows = Command::new("wmctrl").arg("-l").env("DISPLAY", &session.display).output().unwrap();
+            String::from_utf8_lossy(&windows.stdout).contains(title).then_some(())
+        });
+        session.expect_alive(title);
+    }
+    session.xdotool(&["key", "Escape"]);
+    assert!(session.exit_status().success());
+}
+
+#[test]
 fn zoom_keys_move_the_camera_within_limits() {
     let mut session = Session::open(&MAZE);
     let whole = session.last().camera_distance;

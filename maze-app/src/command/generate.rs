@@ -28,8 +28,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let words = recipe::words(&recipe).join(" ").replace('=', " ");
     let text = export::to_obj(&mesh, &format!("maze-app generate {words}"));
     files::write_whole(&arguments.out, text.as_bytes())?;
-    let mut lines =
-        vec![format!("{}: {}x{} cells, {words}", arguments.out.display(), recipe.width, recipe.height)];
+    let mut lines = vec![format!("{}: {words}", arguments.out.display())];
     lines.extend(measures::lines(&maze));
     files::print(&(lines.join("\n") + "\n"))
 }
