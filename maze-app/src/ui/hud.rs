@@ -25,7 +25,7 @@ const KEYS: [(&str, &str); 9] = [
     ("B / S, wheel", "zoom in / out"),
     ("R", "restart"),
     ("N", ""),
-    ("PgUp / PgDn", "level"),
+    ("PgUp / PgDn", "levels"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];

@@ -41,7 +41,8 @@ pub struct Metrics {
     ///
     /// The other hallways are the stretches, off the solution, between two places where ways meet or a way ends or the
     /// solution passes. 1 is added so that a straight hallway counts nothing. The scale does not matter: twice as
-    /// wide a maze is as difficult.
+    /// wide a maze is as difficult. Made for mazes without loops; where there are loops, every hallway off the one shortest
+    /// way counts as a wrong one, though it may lead to the goal as well.
     pub difficulty: f64,
 }
 
@@ -107,7 +108,8 @@ fn complexity(steps: &[Step]) -> f64 {
     let straight = steps.chunk_by(|a, b| a.direction == b.direction);
     let stretches: Vec<f64> = straight.map(|stretch| stretch.iter().map(|step| step.length).sum()).collect();
     let turns = stretches.windows(2).map(|pair| 0.5 * (1.0 / pair[0] + 1.0 / pair[1]) / 2.0);
-    stretches.iter().sum::<f64>() * turns.sum::<f64>()
+    // A sum of nothing is -0.
+    stretches.iter().sum::<f64>() * (0.0 + turns.sum::<f64>())
 }
 
 /// See [`Metrics::difficulty`].
@@ -168,7 +170,8 @@ mod tests {
         assert_eq!((metrics.solution_length, metrics.n_turns, metrics.straightness), (3.0, 0, 3.0));
         assert_eq!((metrics.directness, metrics.n_shortest, metrics.is_unique), (1.0, 1, true));
         assert_eq!((metrics.n_dead_ends, metrics.dead_end_length, metrics.n_loops), (0, 0.0, 0));
-        assert_eq!((metrics.n_junctions, metrics.n_crossroads, metrics.difficulty), (0, 0, 0.0));
+        assert_eq!((metrics.n_junctions, metrics.n_crossroads), (0, 0));
+        assert_eq!(metrics.difficulty.to_bits(), 0.0_f64.to_bits(), "0, and not -0");
     }
 
     #[test]
