@@ -75,7 +75,9 @@ impl ReadArguments {
     /// The maze of a recipe.
     pub(crate) fn generate(&self, recipe: &Recipe) -> Result<Maze, Failure> {
         let layout = recipe.layout().map_err(Failure::bad_input)?;
-        Maze::from_polygons(&extrude::extrude(&layout), &self.options()).map_err(Failure::bad_input)
+        // The axis that was given is that of a file, which a player may have left for a level.
+        let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..self.options() };
+        Maze::from_polygons(&extrude::extrude(&layout), &options).map_err(Failure::bad_input)
     }
 }
 

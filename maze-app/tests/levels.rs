@@ -44,10 +44,15 @@ fn the_autopilot_finishes_every_level_in_its_par() {
 }
 
 #[test]
-fn a_recorded_level_is_played_again() {
+fn a_recorded_level_or_recipe_is_played_again() {
     let directory = tempfile::tempdir().unwrap();
     let record = directory.path().join("run.maze").display().to_string();
-    let run = json(&["autopilot", "--level", "2", "--record", &record, "--json"]);
-    let replay = json(&["replay", &record, "--json"]);
-    assert_eq!((&replay["same"], &replay["ticks"]), (&true.into(), &run["ticks"]));
+    let recipe = ["--size=6x5", "--seed=3", "--elitism=40", "--river=70", "--braid=0.3"];
+    for maze in [&["--level=2"][..], &["--level=2", "--up=y"], &recipe, &["--algorithm=eller", "--size=6x5"]]
+    {
+        let arguments = [&["autopilot", "--record", &record, "--json"], maze].concat();
+        let run = json(&arguments);
+        let replay = json(&["replay", &record, "--json"]);
+        assert_eq!((&replay["same"], &replay["ticks"]), (&true.into(), &run["ticks"]), "{maze:?}");
+    }
 }

@@ -50,16 +50,13 @@ impl Metrics {
     /// `None` when no way leads from start to goal, or when they are the same place.
     pub fn new(ways: &Ways, start: usize, goal: usize) -> Option<Self> {
         let solution = ways.solve(start, goal).filter(|_| start != goal)?;
-        let reached: Vec<usize> = {
-            let distances = ways.distances_from(&[start]);
-            (0..ways.len()).filter(|place| distances[*place].is_finite()).collect()
-        };
+        let ways_back = ways.distances_from(&solution.places);
+        let reached: Vec<usize> = (0..ways.len()).filter(|place| ways_back[*place].is_finite()).collect();
         let mut n_with = [0; 5]; // places by how many ways lead from them
         for place in &reached {
             n_with[ways.n_steps(*place)] += 1;
         }
         let n_links = n_with.iter().enumerate().map(|(n, places)| n * places).sum::<usize>() / 2;
-        let ways_back = ways.distances_from(&solution.places);
         let is_dead_end = |place: usize| ways.n_steps(place) == 1 && place != start && place != goal;
         let dead_ends: Vec<f64> =
             reached.iter().filter(|place| is_dead_end(**place)).map(|tip| ways_back[*tip]).collect();
