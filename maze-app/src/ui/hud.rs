@@ -24,7 +24,7 @@ const KEYS: [(&str, &str); 9] = [
     ("T", "level"),
     ("B / S, wheel", "zoom in / out"),
     ("R", "restart"),
-    ("N", ""),
+    ("N", ""), // what it does depends on the maze
     ("PgUp / PgDn", "levels"),
     ("H", "hide keys"),
     ("Esc", "quit"),
