@@ -228,7 +228,7 @@ fn mouse_and_keys_play_the_game() {
 }
 
 #[test]
-fn the_goal_stops_the_clock_and_r_starts_again() {
+fn the_goal_stops_the_clock_r_starts_again_and_keys_go_on_to_other_mazes() {
     // Two cells: the goal is at the other end of a straight corridor.
     let scratch = tempfile::tempdir().unwrap();
     let run = scratch.path().join("run.maze").display().to_string();
@@ -244,26 +244,13 @@ fn the_goal_stops_the_clock_and_r_starts_again() {
     session.xdotool(&["key", "r"]);
     let again = session.wait_for("R to start again", |state| state.phase == "ready");
     assert_eq!((again.position, again.clock_ticks), (start.position, 0));
-    session.xdotool(&["key", "n"]);
-    session.expect_alive("a new maze");
-    session.xdotool(&["key", "Escape"]);
-    assert!(session.exit_status().success());
-    // The run that reached the goal was kept, and ends there again.
-    let replay = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(["replay", &run]).output().unwrap();
-    let said = String::from_utf8(replay.stdout).unwrap();
-    assert!(replay.status.success() && said.contains("same final state  true"), "{said}");
-    assert!(said.contains("finished"), "{said}");
-}
 
-#[test]
-fn keys_go_through_the_levels_and_on_from_the_goal() {
-    let mut session = Session::open(&["--size", "2x1"]);
-    let start = session.last();
     session.xdotool(&["key", "Return"]);
     session.expect_alive("Enter before the goal");
     assert_eq!(session.last().position, start.position, "Enter goes on from the goal only");
-    session.xdotool(&["keydown", if start.position[0] < 0.0 { "Right" } else { "Left" }]);
-    session.wait_for("the goal", |state| state.phase == "finished");
+    session.xdotool(&["keydown", key]);
+    session.wait_for("the goal again", |state| state.phase == "finished");
+    session.xdotool(&["keyup", key]);
     session.xdotool(&["key", "Return"]);
     session.wait_for("Enter to bring a new maze", |state| state.phase != "finished");
     for (key, title) in [("Next", "Level 1 "), ("Next", "Level 2 "), ("n", "Level 3 "), ("Prior", "Level 2 ")]
@@ -277,6 +264,11 @@ fn keys_go_through_the_levels_and_on_from_the_goal() {
     }
     session.xdotool(&["key", "Escape"]);
     assert!(session.exit_status().success());
+    // The run that reached the goal was kept, and ends there again.
+    let replay = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(["replay", &run]).output().unwrap();
+    let said = String::from_utf8(replay.stdout).unwrap();
+    assert!(replay.status.success() && said.contains("same final state  true"), "{said}");
+    assert!(said.contains("finished"), "{said}");
 }
 
 #[test]
