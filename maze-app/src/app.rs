@@ -11,9 +11,9 @@ use crate::game::{EngineKind, Game, to_f32};
 use crate::input::{self, Action, TiltControl};
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
-use crate::ui::Hud;
+use crate::ui::{Hud, Labels};
 use graphics::{Drawn, Graphics};
-use maze_core::{Event, Maze};
+use maze_core::{Event, Maze, Phase};
 use maze_render::{Camera, TextureSet};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -56,6 +56,7 @@ pub(crate) struct App {
     control: TiltControl,
     view: View,
     source: Source,
+    labels: Labels,
     engine: EngineKind,
     textures: TextureSet,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
@@ -85,9 +86,10 @@ impl App {
         let now = Instant::now();
         Ok(Self {
             clock: Clock::new(game.tick_s()),
-            game,
             control: TiltControl::new(setup.max_tilt_rad),
             view: View::default(),
+            labels: Labels::new(&setup.source, game.maze()),
+            game,
             source: setup.source,
             engine: setup.engine,
             textures: setup.textures,
@@ -156,19 +158,36 @@ impl App {
                 self.control.level();
                 self.game.restart()?;
             }
-            Action::NewMaze => {
-                if self.source.next() {
-                    self.game = Game::new(self.source.load()?, self.engine)?;
-                    self.load_into_graphics()?;
-                    self.begin();
+            Action::GoOn => {
+                let changed = self.source.go_on()?;
+                self.load(changed)?;
+            }
+            Action::GoOnFromGoal => {
+                if self.game.phase() == Phase::Finished {
+                    self.act(event_loop, Action::GoOn)?;
                 }
             }
+            Action::NextLevel | Action::PreviousLevel => {
+                let changed = self.source.change_level(action == Action::NextLevel)?;
+                self.load(changed)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Loads the source's maze when it has changed.
+    fn load(&mut self, changed: bool) -> Result<(), Failure> {
+        if changed {
+            self.game = Game::new(self.source.load()?, self.engine)?;
+            self.load_into_graphics()?;
+            self.begin();
         }
         Ok(())
     }
 
     /// Another maze is there: level, all of it in view.
     fn begin(&mut self) {
+        self.labels = Labels::new(&self.source, self.game.maze());
         self.control.level();
         self.view.show_all();
         self.notice = None;
@@ -244,14 +263,12 @@ impl App {
         let Some(graphics) = &self.graphics else { return Ok(()) };
         let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
         self.simulate(elapsed)?;
-        let title = self.source.title();
         let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
         let hud = Hud {
             phase: self.game.phase(),
             n_ticks: self.game.n_ticks(),
             tick_s: self.game.tick_s(),
-            title: &title,
-            has_next: self.source.has_next(),
+            labels: &self.labels,
             help: self.help,
             notice: notice.map(|(text, _)| text.as_str()),
         };

@@ -8,9 +8,12 @@ mod failure;
 mod files;
 mod game;
 mod input;
+mod levels;
 mod maze_file;
+mod measures;
 mod picture;
 mod progress;
+mod recipe;
 mod sidecar;
 mod source;
 mod state_log;
@@ -30,6 +33,7 @@ use std::process::ExitCode;
     args_conflicts_with_subcommands = true,
     after_help = "Examples:\n  maze-app                              play a new random maze\n  \
                   maze-app play --seed 7 --size 20x12   play this one\n  \
+                  maze-app play --level 3               play a level\n  \
                   maze-app play my_maze.obj             play your own\n\n\
                   Exit status: 0 done; 1 what was asked for did not hold; 2 bad input or usage."
 )]
@@ -46,7 +50,7 @@ enum Command {
     Play(command::play::Arguments),
     /// Load a maze and say what was found in it.
     Info(command::info::Arguments),
-    /// Make a random maze and write it as a file.
+    /// Make a random maze and write it to a file.
     Generate(command::generate::Arguments),
     /// Play to the goal without a window.
     Autopilot(command::autopilot::Arguments),

@@ -63,6 +63,12 @@ pub(crate) struct Loaded {
     pub(crate) found: Option<String>,
 }
 
+impl From<Maze> for Loaded {
+    fn from(maze: Maze) -> Self {
+        Self { maze, found: None }
+    }
+}
+
 /// Reads a maze file; the kind is told by its name's ending.
 pub(crate) fn load(path: &Path, options: &AssembleOptions) -> Result<Loaded, Failure> {
     let kind = Kind::of_name(path, &KINDS)?;

@@ -1,15 +1,17 @@
-//! Where a maze comes from: a file, or a seed.
+//! Where a maze comes from: a file, a level, or a seed.
 
 use crate::failure::Failure;
+use crate::levels::{self, Level, N_LEVELS};
 use crate::maze_file::{self, Loaded};
+use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
 use crate::sidecar::Sidecar;
 use clap::Args;
-use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude, layout};
+use maze_core::layout::{Algorithm, Recipe};
+use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 /// How to read a maze file.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub(crate) struct ReadArguments {
     /// Ball radius in corridors, 0.02 to 0.49 [default: 0.35]
     #[arg(long, value_name = "R", value_parser = parse_radius)]
@@ -19,23 +21,34 @@ pub(crate) struct ReadArguments {
     up: Option<UpAxis>,
 }
 
-/// Which maze: a file, or a seed.
+/// Which maze: a file, a level, or a seed.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct MazeArguments {
     /// A maze (.obj, .svg, .txt, .png or .bmp); without one, a random maze
-    #[arg(conflicts_with_all = ["random", "seed", "size"])]
+    #[arg(conflicts_with_all = RECIPE_ARGUMENTS, conflicts_with_all = ["random", "level"])]
     file: Option<PathBuf>,
     #[command(flatten)]
     read: ReadArguments,
+    #[arg(long, value_name = "N", value_parser = levels::parse_level, help = levels::HELP)]
+    #[arg(conflicts_with_all = RECIPE_ARGUMENTS, conflicts_with = "random")]
+    level: Option<usize>,
     /// A random maze (what happens anyway without a FILE)
     #[arg(long)]
     random: bool,
-    /// The same seed gives the same maze [default: a new one]
-    #[arg(long, value_name = "N")]
-    seed: Option<u64>,
-    /// Cells of a random maze
-    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
-    size: GridSize,
+    #[command(flatten)]
+    recipe: RecipeArguments,
+}
+
+/// Which maze, for a command that does not make any: a file or a level.
+#[derive(Args, Clone, Debug)]
+pub(crate) struct KnownMazeArguments {
+    /// A maze (.obj, .svg, .txt, .png or .bmp)
+    #[arg(required_unless_present = "level", conflicts_with = "level")]
+    file: Option<PathBuf>,
+    #[arg(long, value_name = "N", value_parser = levels::parse_level, help = levels::HELP)]
+    level: Option<usize>,
+    #[command(flatten)]
+    read: ReadArguments,
 }
 
 impl ReadArguments {
@@ -62,12 +75,12 @@ impl ReadArguments {
         maze_file::load(path, &self.options(&Sidecar::beside(path)?))
     }
 
-    /// The maze of a seed.
-    pub(crate) fn generate(&self, size: GridSize, seed: u64) -> Result<Maze, Failure> {
-        let layout =
-            layout::recursive_backtracker(size.width, size.height, seed).map_err(Failure::bad_input)?;
-        Maze::from_polygons(&extrude::extrude(&layout), &self.options(&Sidecar::default()))
-            .map_err(Failure::bad_input)
+    /// The maze of a recipe.
+    pub(crate) fn generate(&self, recipe: &Recipe) -> Result<Maze, Failure> {
+        let layout = recipe.layout().map_err(Failure::bad_input)?;
+        // The axis that was given is that of a file, which a player may have left for a level.
+        let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..self.options(&Sidecar::default()) };
+        Maze::from_polygons(&extrude::extrude(&layout), &options).map_err(Failure::bad_input)
     }
 }
 
@@ -79,17 +92,35 @@ pub(crate) struct Source {
 
 enum Kind {
     File(PathBuf),
-    Random { size: GridSize, seed: u64 },
+    Level { number: usize, level: Level },
+    Random(Recipe),
+}
+
+impl Kind {
+    fn level(number: usize) -> Result<Self, Failure> {
+        Ok(Self::Level { number, level: levels::level(number)? })
+    }
 }
 
 impl Source {
     /// Chooses a seed where none was given.
-    pub(crate) fn new(arguments: &MazeArguments) -> Self {
+    pub(crate) fn new(arguments: &MazeArguments) -> Result<Self, Failure> {
+        let kind = match (&arguments.file, arguments.level) {
+            (Some(path), _) => Kind::File(path.clone()),
+            (None, Some(number)) => Kind::level(number)?,
+            (None, None) => Kind::Random(arguments.recipe.recipe()),
+        };
+        Ok(Self { read: arguments.read.clone(), kind })
+    }
+
+    /// The file or the level.
+    pub(crate) fn known(arguments: &KnownMazeArguments) -> Result<Self, Failure> {
         let kind = match &arguments.file {
             Some(path) => Kind::File(path.clone()),
-            None => Kind::Random { size: arguments.size, seed: arguments.seed.unwrap_or_else(fresh_seed) },
+            // One of the two is required.
+            None => Kind::level(arguments.level.unwrap_or(1))?,
         };
-        Self { read: arguments.read.clone(), kind }
+        Ok(Self { read: arguments.read.clone(), kind })
     }
 
     /// A file, read as the last one was.
@@ -101,9 +132,8 @@ impl Source {
     pub(crate) fn words(&self) -> Result<String, Failure> {
         let mut words = self.read.words();
         match &self.kind {
-            Kind::Random { size, seed } => {
-                words.extend([format!("--size={}x{}", size.width, size.height), format!("--seed={seed}")]);
-            }
+            Kind::Random(recipe) => words.extend(recipe::words(recipe)),
+            Kind::Level { number, .. } => words.push(format!("--level={number}")),
             Kind::File(path) => {
                 let name = path.to_str().filter(|name| !name.contains('\n'));
                 let name = name.ok_or_else(|| {
@@ -116,9 +146,15 @@ impl Source {
     }
 
     pub(crate) fn load(&self) -> Result<Maze, Failure> {
+        Ok(self.load_and_tell()?.maze)
+    }
+
+    /// The maze and what was found on the way to it.
+    pub(crate) fn load_and_tell(&self) -> Result<Loaded, Failure> {
         match &self.kind {
-            Kind::File(path) => Ok(self.read.load(path)?.maze),
-            Kind::Random { size, seed } => self.read.generate(*size, *seed),
+            Kind::File(path) => self.read.load(path),
+            Kind::Level { level, .. } => self.read.generate(&level.recipe).map(Loaded::from),
+            Kind::Random(recipe) => self.read.generate(recipe).map(Loaded::from),
         }
     }
 
@@ -126,7 +162,15 @@ impl Source {
     pub(crate) fn file(&self) -> Option<&Path> {
         match &self.kind {
             Kind::File(path) => Some(path),
-            Kind::Random { .. } => None,
+            Kind::Level { .. } | Kind::Random(_) => None,
+        }
+    }
+
+    /// What an error calls it.
+    pub(crate) fn name(&self) -> String {
+        match &self.kind {
+            Kind::File(path) => path.display().to_string(),
+            Kind::Level { .. } | Kind::Random(_) => self.title(),
         }
     }
 
@@ -134,59 +178,66 @@ impl Source {
     pub(crate) fn title(&self) -> String {
         match &self.kind {
             Kind::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
-            Kind::Random { size, seed } => format!("{}x{}  seed {seed}", size.width, size.height),
-        }
-    }
-
-    /// Moves on to another random maze; false for a file.
-    pub(crate) fn next(&mut self) -> bool {
-        match &mut self.kind {
-            Kind::File(_) => false,
-            Kind::Random { seed, .. } => {
-                *seed = fresh_seed();
-                true
+            Kind::Level { number, level } => format!("Level {number}  {}", level.name),
+            Kind::Random(Recipe { width, height, algorithm: Algorithm::Backtracker, seed, .. }) => {
+                format!("{width}x{height}  seed {seed}")
+            }
+            Kind::Random(Recipe { width, height, algorithm, seed, .. }) => {
+                format!("{width}x{height}  {algorithm}  seed {seed}")
             }
         }
     }
 
-    /// Whether there is another maze of the same kind.
-    pub(crate) fn has_next(&self) -> bool {
-        matches!(self.kind, Kind::Random { .. })
+    /// The time to beat, where there is one.
+    pub(crate) fn par_ticks(&self) -> Option<u64> {
+        match &self.kind {
+            Kind::Level { level, .. } => Some(level.par_ticks),
+            Kind::File(_) | Kind::Random(_) => None,
+        }
+    }
+
+    /// What comes after this maze.
+    pub(crate) fn onwards(&self) -> Onwards {
+        match &self.kind {
+            Kind::Random(_) => Onwards::NewMaze,
+            Kind::Level { number, .. } if *number < N_LEVELS => Onwards::NextLevel,
+            Kind::Level { .. } | Kind::File(_) => Onwards::Nothing,
+        }
+    }
+
+    /// Moves on to another random maze or to the next level; false when there is none.
+    pub(crate) fn go_on(&mut self) -> Result<bool, Failure> {
+        match &mut self.kind {
+            Kind::File(_) => Ok(false),
+            Kind::Level { .. } => self.change_level(true),
+            Kind::Random(recipe) => {
+                recipe.seed = recipe::fresh_seed();
+                Ok(true)
+            }
+        }
+    }
+
+    /// Moves to the next level or to the one before, to the first one from any other maze; false at either end.
+    pub(crate) fn change_level(&mut self, forwards: bool) -> Result<bool, Failure> {
+        let number = match (&self.kind, forwards) {
+            (Kind::Level { number, .. }, true) => number + 1,
+            (Kind::Level { number, .. }, false) => number - 1,
+            (Kind::File(_) | Kind::Random(_), _) => 1,
+        };
+        let exists = (1..=N_LEVELS).contains(&number);
+        if exists {
+            self.kind = Kind::level(number)?;
+        }
+        Ok(exists)
     }
 }
 
-/// Cells along x and y.
+/// What comes after a maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct GridSize {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-}
-
-impl GridSize {
-    /// A maze of a few minutes that fits a wide window.
-    pub(crate) const DEFAULT: &str = "14x9";
-}
-
-/// A seed nobody chose; short enough to read out.
-pub(crate) fn fresh_seed() -> u64 {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-    (since.as_secs() ^ u64::from(since.subsec_nanos())) % 1_000_000
-}
-
-/// `WxH`: two whole numbers.
-fn parse_pair<N: std::str::FromStr>(text: &str) -> Option<[N; 2]> {
-    let (width, height) = text.split_once(['x', 'X'])?;
-    Some([width.parse().ok()?, height.parse().ok()?])
-}
-
-pub(crate) fn parse_grid_size(text: &str) -> Result<GridSize, String> {
-    let [width, height] = parse_pair(text).ok_or("expected WxH in cells, such as 14x9")?;
-    Ok(GridSize { width, height })
-}
-
-pub(crate) fn parse_pixel_size(text: &str) -> Result<[u32; 2], String> {
-    let size = parse_pair(text).ok_or("expected WxH in pixels, such as 1280x720")?;
-    if size.contains(&0) { Err("expected at least 1x1 pixels".to_owned()) } else { Ok(size) }
+pub(crate) enum Onwards {
+    Nothing,
+    NewMaze,
+    NextLevel,
 }
 
 /// Below the length of a substep a ball could pass through a wall between two of them; half a corridor fits nowhere.

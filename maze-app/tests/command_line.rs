@@ -123,7 +123,7 @@ fn a_text_and_its_picture_are_the_same_maze() {
     }
     let path = directory.path().join("maze.txt").display().to_string();
     assert_eq!(json(&["autopilot", &path, "--json"])["finished"], true);
-    refused(&mut maze_app(&["info", &path, "--up", "y"]), "--up is for .obj files");
+    refused(&mut maze_app(&["info", &path, "--up", "y"]), "an up axis is for .obj files");
 }
 
 #[test]
@@ -153,6 +153,58 @@ fn generated_files_of_all_kinds_are_mazes_of_the_same_passages() {
     refused(&mut maze_app(&["generate", "--out", &path("maze.stl")]), "ends in .obj, .svg or .txt");
     let with_solution = ["generate", "--out", &path("way.txt"), "--solution"];
     refused(&mut maze_app(&with_solution), "--solution is drawn in .svg files only");
+}
+
+#[test]
+fn generate_knows_every_algorithm_and_prints_what_info_finds() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("maze.obj").display().to_string();
+    let algorithms: [&[&str]; 7] = [
+        &["--algorithm", "wilson", "--braid", "0.5"],
+        &["--algorithm", "kruskal"],
+        &["--algorithm", "prim"],
+        &["--algorithm", "eller", "--braid", "1"],
+        &["--algorithm", "growing-tree"],
+        &["--elitism", "40"],
+        &["--river", "90", "--algorithm", "growing-tree"],
+    ];
+    for algorithm in algorithms {
+        let arguments = ["generate", "--size", "7x6", "--seed", "3", "--out", &out];
+        let generated = stdout(&maze_app(&arguments).args(algorithm).output().unwrap());
+        let found = stdout(&maze_app(&["info", &out]).output().unwrap());
+        let (_, numbers) = generated.split_once('\n').unwrap();
+        assert!(numbers.starts_with("way ") && numbers.contains("\ndifficulty "), "{generated}");
+        assert!(found.contains(numbers), "{algorithm:?}: {numbers} in {found}");
+        let metrics = json(&["info", &out, "--json"])["metrics"].clone();
+        assert_eq!(metrics["loops"] == 0, !algorithm.contains(&"--braid"), "{algorithm:?}: {metrics}");
+        // The first line of the file makes it again.
+        let before = std::fs::read_to_string(&out).unwrap();
+        let again = before.lines().next().unwrap().strip_prefix("# maze-app ").unwrap();
+        let arguments: Vec<&str> = again.split(' ').chain(["--out", &out]).collect();
+        assert!(maze_app(&arguments).output().unwrap().status.success());
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), before);
+    }
+}
+
+#[test]
+fn knobs_out_of_range_are_refused_and_nothing_is_written() {
+    let directory = tempfile::tempdir().unwrap();
+    let out = directory.path().join("maze.obj").display().to_string();
+    for (arguments, expected) in [
+        (&["--algorithm", "warp"][..], "expected backtracker, wilson, kruskal, prim, growing-tree, eller"),
+        (&["--braid", "1.5"], "expected a probability, 0 to 1"),
+        (&["--braid=-1"], "expected a probability, 0 to 1"),
+        (&["--elitism", "101"], "expected a whole number, 0 to 100"),
+        (&["--river", "x"], "expected a whole number, 0 to 100"),
+        (
+            &["--river", "20", "--algorithm", "prim"],
+            "elitism and river are knobs of growing-tree, not of prim",
+        ),
+        (&["--size", "2000x3"], "a maze of 2000x3 cells: expected at least 2 cells and at most 1024"),
+    ] {
+        refused(maze_app(&["generate", "--out", &out]).args(arguments), expected);
+    }
+    assert!(names_in(directory.path()).is_empty());
 }
 
 #[test]
@@ -268,6 +320,9 @@ fn bad_usage_is_one_line() {
     refused(&mut maze_app(&["--frobnicate"]), "unexpected argument '--frobnicate'");
     refused(&mut maze_app(&["play", "--size", "0x"]), "expected WxH in cells");
     refused(&mut maze_app(&["play", "--size", "1x1"]), "expected at least 2 cells");
+    refused(&mut maze_app(&["play", "--level", "0"]), "expected 1 to 14");
+    refused(&mut maze_app(&["play", "--level", "3", "--seed", "1"]), "cannot be used with");
+    refused(&mut maze_app(&["info", DEFAULT_MAZE, "--level", "3"]), "cannot be used with");
     refused(&mut maze_app(&["play", "--engine", "warp"]), "invalid value 'warp'");
     refused(&mut maze_app(&["play", "--max-tilt", "90"]), "expected 1 to 45 degrees");
     refused(&mut maze_app(&["play", "--exit-after", "nan"]), "expected a number of seconds");

@@ -228,7 +228,7 @@ fn mouse_and_keys_play_the_game() {
 }
 
 #[test]
-fn the_goal_stops_the_clock_and_r_starts_again() {
+fn the_goal_stops_the_clock_r_starts_again_and_keys_go_on_to_other_mazes() {
     // Two cells: the goal is at the other end of a straight corridor.
     let scratch = tempfile::tempdir().unwrap();
     let run = scratch.path().join("run.maze").display().to_string();
@@ -244,8 +244,24 @@ fn the_goal_stops_the_clock_and_r_starts_again() {
     session.xdotool(&["key", "r"]);
     let again = session.wait_for("R to start again", |state| state.phase == "ready");
     assert_eq!((again.position, again.clock_ticks), (start.position, 0));
-    session.xdotool(&["key", "n"]);
-    session.expect_alive("a new maze");
+
+    session.xdotool(&["key", "Return"]);
+    session.expect_alive("Enter before the goal");
+    assert_eq!(session.last().position, start.position, "Enter goes on from the goal only");
+    session.xdotool(&["keydown", key]);
+    session.wait_for("the goal again", |state| state.phase == "finished");
+    session.xdotool(&["keyup", key]);
+    session.xdotool(&["key", "Return"]);
+    session.wait_for("Enter to bring a new maze", |state| state.phase != "finished");
+    for (key, title) in [("Next", "Level 1 "), ("Next", "Level 2 "), ("n", "Level 3 "), ("Prior", "Level 2 ")]
+    {
+        session.xdotool(&["key", key]);
+        until(title, || {
+            let windows = Command::new("wmctrl").arg("-l").env("DISPLAY", &session.display).output().unwrap();
+            String::from_utf8_lossy(&windows.stdout).contains(title).then_some(())
+        });
+        session.expect_alive(title);
+    }
     session.xdotool(&["key", "Escape"]);
     assert!(session.exit_status().success());
     // The run that reached the goal was kept, and ends there again.

@@ -2,6 +2,7 @@
 //!
 //! Walls are grown by a square and not by a disc, so a gap that the ball could only take diagonally counts as closed.
 
+use crate::layout::Ways;
 use crate::section::Section;
 use nalgebra::Vector2;
 use std::cmp::Reverse;
@@ -133,6 +134,42 @@ impl Reach {
             (j + 2 < self.ys.len()).then(|| cell + n_x),
         ];
         neighbours.into_iter().flatten().filter(|next| self.free[*next])
+    }
+
+    /// The corridors that lead from a free cell, and which place of theirs each of these two cells is; `None` when the ball
+    /// has room to pass to the side somewhere (four free cells around a corner), so that it is no maze of corridors alone,
+    /// and when no way leads from one cell to the other.
+    pub(crate) fn ways(&self, from: usize, to: usize) -> Option<(Ways, [usize; 2])> {
+        let n_x = self.n_x();
+        let mut ways = Ways::default();
+        let mut place_of = vec![usize::MAX; self.free.len()];
+        let mut cells = vec![from]; // by place
+        place_of[from] = 0;
+        let mut n_done = 0;
+        while let Some(&cell) = cells.get(n_done) {
+            ways.push(self.middle(cell).into());
+            n_done += 1;
+            for next in self.neighbours(cell) {
+                if place_of[next] == usize::MAX {
+                    place_of[next] = cells.len();
+                    cells.push(next);
+                }
+            }
+        }
+        for (place, cell) in cells.into_iter().enumerate() {
+            // Neighbours of a reached cell are reached.
+            let right = Some(cell + 1).filter(|right| right % n_x != 0 && self.free[*right]);
+            let above = Some(cell + n_x).filter(|above| self.free.get(*above) == Some(&true));
+            if let (Some(right), Some(_)) = (right, above)
+                && self.free[right + n_x]
+            {
+                return None;
+            }
+            right.inspect(|right| ways.join(place, place_of[*right], 0));
+            above.inspect(|above| ways.join(place, place_of[*above], 2));
+        }
+        let goal = place_of[to];
+        (goal != usize::MAX).then_some((ways, [0, goal]))
     }
 
     /// A cell of the connected region with the most cells; `None` when nothing is free.

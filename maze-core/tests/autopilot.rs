@@ -29,8 +29,12 @@ fn play(maze: &Maze, engine: &mut dyn Engine) -> Option<u64> {
 }
 
 fn maze(width: usize, height: usize, seed: u64) -> Maze {
-    let layout = layout::recursive_backtracker(width, height, seed).unwrap();
-    Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap()
+    maze_of(&layout::Recipe::new(width, height, layout::Algorithm::Backtracker, seed))
+}
+
+fn maze_of(recipe: &layout::Recipe) -> Maze {
+    let mesh = extrude::extrude(&recipe.layout().unwrap());
+    Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap()
 }
 
 #[test]
@@ -48,6 +52,18 @@ fn finishes_200_of_200_random_mazes_on_both_engines() {
         }
     }
     println!("slowest: {slowest} ticks");
+}
+
+#[test]
+fn finishes_mazes_of_every_algorithm_with_and_without_loops() {
+    for algorithm in layout::Algorithm::ALL {
+        for (seed, braid) in [(1, 0.0), (2, 0.0), (3, 0.5), (4, 1.0)] {
+            let maze = maze_of(&layout::Recipe { braid, ..layout::Recipe::new(14, 11, algorithm, seed) });
+            let ball = Ball::at(maze.start);
+            let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
+            assert!(play(&maze, &mut engine).is_some(), "{algorithm}, seed {seed}: {:?}", engine.ball());
+        }
+    }
 }
 
 #[test]

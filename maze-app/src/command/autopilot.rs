@@ -14,7 +14,7 @@ use std::path::PathBuf;
 const MAX_TILT_DEGREES: f64 = 20.0;
 
 #[derive(Args)]
-#[command(after_help = "Examples:\n  maze-app autopilot my_maze.obj\n  \
+#[command(after_help = "Examples:\n  maze-app autopilot my_maze.obj\n  maze-app autopilot --level 3\n  \
                         maze-app autopilot --random --seed 7 --size 20x20 --record run.maze\n\n\
                         Exit status 1 when the goal was not reached.")]
 pub(crate) struct Arguments {
@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let source = Source::new(&arguments.maze);
+    let source = Source::new(&arguments.maze)?;
     let mut game = Game::new(source.load()?, arguments.engine)?;
     let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {

@@ -3,22 +3,19 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::maze_file::Loaded;
-use crate::source::ReadArguments;
+use crate::measures;
+use crate::source::{KnownMazeArguments, Source};
 use clap::Args;
 use maze_core::{FaceNote, Facing, Maze, Plane};
 use serde_json::{Map, Value, json};
-use std::path::PathBuf;
 
 #[derive(Args)]
-#[command(
-    after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.svg --json\n  maze-app info my_maze.obj --planes +y\n\n\
-                        Exit status 1 when no way leads from start to goal."
-)]
+#[command(after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.svg --json\n  \
+                        maze-app info my_maze.obj --planes +y\n  maze-app info --level 3\n\n\
+                        Exit status 1 when no way leads from start to goal.")]
 pub(crate) struct Arguments {
-    /// A maze (.obj, .svg, .txt, .png or .bmp)
-    file: PathBuf,
     #[command(flatten)]
-    read: ReadArguments,
+    maze: KnownMazeArguments,
     /// One JSON object instead of text
     #[arg(long)]
     json: bool,
@@ -33,7 +30,8 @@ fn parse_facing(text: &str) -> Result<Facing, String> {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let Loaded { maze, found } = arguments.read.load(&arguments.file)?;
+    let source = Source::known(&arguments.maze)?;
+    let Loaded { maze, found } = source.load_and_tell()?;
     let text = match (arguments.planes, arguments.json) {
         (Some(facing), true) => {
             format!("{}\n", json!({ "facing": facing.name(), "planes": table(&maze, facing) }))
@@ -48,7 +46,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     if maze.solvable {
         return Ok(());
     }
-    Err(Failure::not_held(format!("{}: no way leads from start to goal", arguments.file.display())))
+    Err(Failure::not_held(format!("{}: no way leads from start to goal", source.name())))
 }
 
 fn table(maze: &Maze, facing: Facing) -> Vec<[f64; 3]> {
@@ -108,6 +106,8 @@ fn summary(maze: &Maze, found: Option<&str>) -> Value {
         "start": point(maze.start),
         "goal": point(maze.goal),
         "solvable": maze.solvable,
+        "way_length": maze.way_length(),
+        "metrics": maze.metrics().as_ref().map(measures::json),
         "openings": openings.collect::<Vec<_>>(),
         "has_floor": maze.has_floor,
         "doubtful_part": maze.doubtful_part,
@@ -135,6 +135,7 @@ fn summary_text(maze: &Maze) -> String {
         format!("goal         {:.3}, {:.3}", maze.goal.x, maze.goal.y),
         format!("solvable     {}", maze.solvable),
     ];
+    lines.extend(measures::lines(maze));
     lines.extend(maze.openings.iter().map(|opening| {
         let [across, along] = axes(opening.facing);
         format!(

@@ -13,7 +13,8 @@ use std::time::Duration;
 
 #[derive(Args, Clone, Debug)]
 #[command(
-    after_help = "Examples:\n  maze-app play\n  maze-app play --seed 7 --size 20x12\n  maze-app play my_maze.obj"
+    after_help = "Examples:\n  maze-app play\n  maze-app play --level 3\n  maze-app play --seed 7 --size 20x12\n  \
+                  maze-app play --algorithm wilson --braid 0.5\n  maze-app play my_maze.obj"
 )]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -61,7 +62,7 @@ pub(crate) struct Setup {
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
-    let source = Source::new(&arguments.maze);
+    let source = Source::new(&arguments.maze)?;
     if let Some(path) = &arguments.record {
         files::expect_directory_of(path)?;
     }

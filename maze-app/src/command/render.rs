@@ -3,8 +3,9 @@
 use crate::failure::Failure;
 use crate::files;
 use crate::game::{EngineKind, Game};
+use crate::recipe::parse_pixel_size;
 use crate::sidecar;
-use crate::source::{ReadArguments, parse_pixel_size};
+use crate::source::{KnownMazeArguments, Source};
 use crate::ui::to_points;
 use clap::Args;
 use image::ImageFormat;
@@ -20,12 +21,13 @@ const MAX_TICKS: u32 = 120_000;
 const MAX_TILT_DEGREES: f64 = 45.0;
 
 #[derive(Args)]
-#[command(after_help = "Example:\n  maze-app render my_maze.obj --out picture.png --tilt 8,-5 --ticks 60")]
+#[command(
+    after_help = "Examples:\n  maze-app render my_maze.obj --out picture.png --tilt 8,-5 --ticks 60\n  \
+                        maze-app render --level 3 --out level3.png"
+)]
 pub(crate) struct Arguments {
-    /// A maze (.obj, .svg, .txt, .png or .bmp)
-    file: PathBuf,
     #[command(flatten)]
-    read: ReadArguments,
+    maze: KnownMazeArguments,
     /// Where to write the picture; the name ends in .png
     #[arg(long, value_name = "PNG")]
     out: PathBuf,
@@ -64,8 +66,9 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
-    let textures = sidecar::textures(arguments.textures.as_deref(), Some(&arguments.file))?;
-    let mut game = Game::new(arguments.read.load(&arguments.file)?.maze, arguments.engine)?;
+    let source = Source::known(&arguments.maze)?;
+    let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
+    let mut game = Game::new(source.load()?, arguments.engine)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;
     }

@@ -12,8 +12,12 @@ pub(crate) enum Action {
     Level,
     /// Ball to the start, clock to zero.
     Restart,
-    /// Another random maze.
-    NewMaze,
+    /// Another random maze, or the next level.
+    GoOn,
+    /// The same, once the goal is reached.
+    GoOnFromGoal,
+    NextLevel,
+    PreviousLevel,
     /// Show or hide the list of keys.
     ToggleHelp,
     Quit,
@@ -23,12 +27,15 @@ pub(crate) enum Action {
 pub(crate) fn action_of(key: &Key) -> Option<Action> {
     Some(match key {
         Key::Named(NamedKey::Escape) => Action::Quit,
+        Key::Named(NamedKey::Enter) => Action::GoOnFromGoal,
+        Key::Named(NamedKey::PageDown) => Action::NextLevel,
+        Key::Named(NamedKey::PageUp) => Action::PreviousLevel,
         Key::Character(text) => match text.to_ascii_lowercase().as_str() {
             "b" => Action::ZoomIn,
             "s" => Action::ZoomOut,
             "t" => Action::Level,
             "r" => Action::Restart,
-            "n" => Action::NewMaze,
+            "n" => Action::GoOn,
             "h" => Action::ToggleHelp,
             _ => return None,
         },

@@ -1,7 +1,8 @@
 //! Clock, maze, keys, and the goal.
 
+use crate::source::{Onwards, Source};
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
-use maze_core::Phase;
+use maze_core::{Maze, Phase};
 
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
 const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
@@ -17,13 +18,14 @@ const SMALL: [f32; 2] = [520.0, 300.0];
 /// The list of keys in one line, with its margins (points).
 const KEYS_HEIGHT: f32 = 50.0;
 
-const KEYS: [(&str, &str); 8] = [
+const KEYS: [(&str, &str); 9] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
     ("B / S, wheel", "zoom in / out"),
     ("R", "restart"),
-    ("N", "new maze"),
+    ("N", ""), // what it does depends on the maze
+    ("PgUp / PgDn", "levels"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];
@@ -33,12 +35,41 @@ pub(crate) struct Hud<'a> {
     pub(crate) phase: Phase,
     pub(crate) n_ticks: u64,
     pub(crate) tick_s: f64,
-    pub(crate) title: &'a str,
-    /// Whether N brings another maze.
-    pub(crate) has_next: bool,
+    pub(crate) labels: &'a Labels,
     pub(crate) help: bool,
     /// What went wrong, while it is worth saying.
     pub(crate) notice: Option<&'a str>,
+}
+
+/// What does not change while a maze is played.
+pub(crate) struct Labels {
+    title: String,
+    /// In small letters: what the maze is like.
+    facts: String,
+    par_ticks: Option<u64>,
+    onwards: Onwards,
+}
+
+impl Labels {
+    pub(crate) fn new(source: &Source, maze: &Maze) -> Self {
+        let way = maze.way_length().map(|length| format!("way {length:.0}"));
+        let difficulty = maze.metrics().map(|metrics| format!("difficulty {:.0}", metrics.difficulty));
+        Self {
+            title: source.title(),
+            facts: way.into_iter().chain(difficulty).collect::<Vec<_>>().join("   "),
+            par_ticks: source.par_ticks(),
+            onwards: source.onwards(),
+        }
+    }
+
+    /// What N does.
+    fn onwards(&self) -> Option<&'static str> {
+        match self.onwards {
+            Onwards::Nothing => None,
+            Onwards::NewMaze => Some("new maze"),
+            Onwards::NextLevel => Some("next level"),
+        }
+    }
 }
 
 /// Once for a context: dark glass, warm text.
@@ -76,25 +107,31 @@ impl Hud<'_> {
             return;
         }
         area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
-            // Extended, not wrapped: egui would keep to the width of the last maze's name.
-            let title = RichText::new(self.title).color(QUIET_INK);
-            ui.add(egui::Label::new(title).wrap_mode(egui::TextWrapMode::Extend));
+            let par = self.labels.par_ticks.map(|ticks| format!("par {}", clock_text(self.seconds(ticks))));
+            let facts = par.into_iter().chain([self.labels.facts.clone()]).collect::<Vec<_>>().join("   ");
+            ui.vertical(|ui| {
+                // Extended, not wrapped: egui would keep to the width of the last maze's name.
+                for text in [RichText::new(&self.labels.title), RichText::new(facts).size(11.0)] {
+                    let label = egui::Label::new(text.color(QUIET_INK));
+                    ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
+                }
+            });
         });
         if self.help {
             self.keys(ui.ctx());
         }
     }
 
-    fn seconds(&self) -> f64 {
+    fn seconds(&self, n_ticks: u64) -> f64 {
         #[allow(clippy::cast_precision_loss, reason = "2^53 ticks are longer than anybody plays")]
-        let n_ticks = self.n_ticks as f64;
+        let n_ticks = n_ticks as f64;
         n_ticks * self.tick_s
     }
 
     fn clock(&self, context: &Context) {
         area(context, "clock", Align2::LEFT_TOP, vec2(MARGIN, MARGIN), |ui| {
             ui.horizontal(|ui| {
-                ui.label(RichText::new(clock_text(self.seconds())).font(FontId::monospace(24.0)));
+                ui.label(RichText::new(clock_text(self.seconds(self.n_ticks))).font(FontId::monospace(24.0)));
                 ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
             });
             if self.phase == Phase::Ready {
@@ -107,7 +144,12 @@ impl Hud<'_> {
         area(context, "keys", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
             ui.set_max_width(context.content_rect().width() - 4.0 * MARGIN);
             ui.horizontal_wrapped(|ui| {
-                for (key, effect) in KEYS.into_iter().filter(|(key, _)| self.has_next || *key != "N") {
+                let onwards = self.labels.onwards();
+                let keys = KEYS.into_iter().filter_map(|(key, effect)| match key {
+                    "N" => onwards.map(|effect| (key, effect)),
+                    _ => Some((key, effect)),
+                });
+                for (key, effect) in keys {
                     ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
                     ui.label(RichText::new(effect).color(QUIET_INK).size(13.0));
                     ui.add_space(8.0);
@@ -124,11 +166,19 @@ impl Hud<'_> {
                 frame.show(ui, |ui| {
                     ui.vertical_centered(|ui| {
                         ui.label(RichText::new("Goal reached").size(30.0).color(GOLD));
-                        ui.label(RichText::new(clock_text(self.seconds())).font(FontId::monospace(40.0)));
+                        let time = clock_text(self.seconds(self.n_ticks));
+                        ui.label(RichText::new(time).font(FontId::monospace(40.0)));
                         ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
+                        if let Some(par_ticks) = self.labels.par_ticks {
+                            let under = if self.n_ticks < par_ticks { "under par" } else { "par" };
+                            let par = format!("{under} {}", clock_text(self.seconds(par_ticks)));
+                            let ink = if self.n_ticks < par_ticks { GOLD } else { QUIET_INK };
+                            ui.label(RichText::new(par).color(ink));
+                        }
                         ui.add_space(6.0);
-                        let next =
-                            if self.has_next { "R  play again      N  new maze" } else { "R  play again" };
+                        let onwards = self.labels.onwards();
+                        let onwards = onwards.map(|effect| format!("      N or Enter  {effect}"));
+                        let next = format!("R  play again{}", onwards.unwrap_or_default());
                         ui.label(RichText::new(next).size(16.0));
                     });
                 });

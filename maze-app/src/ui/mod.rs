@@ -2,7 +2,7 @@
 
 mod hud;
 
-pub(crate) use hud::Hud;
+pub(crate) use hud::{Hud, Labels};
 
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use maze_render::Gpu;

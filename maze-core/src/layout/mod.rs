@@ -2,10 +2,18 @@
 
 mod door;
 mod generate;
+mod metrics;
+mod solve;
 mod way;
+mod ways;
 
 pub use door::{Door, Side};
-pub use generate::recursive_backtracker;
+pub use generate::{
+    Algorithm, EllerRow, EllerRows, Recipe, RecipeError, UnknownAlgorithm, recursive_backtracker,
+};
+pub use metrics::Metrics;
+pub use solve::{MOST_COUNTED, Solution};
+pub use ways::Ways;
 
 use std::collections::BTreeSet;
 
@@ -71,6 +79,23 @@ impl Layout {
     /// Number of passages.
     pub fn n_passages(&self) -> usize {
         self.east.iter().chain(&self.north).filter(|open| **open).count()
+    }
+
+    /// The cells that passages lead to from a cell, both given as `y * width + x`.
+    pub(crate) fn open_neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
+        let (x, y) = (cell % self.width, cell / self.width);
+        let open = [
+            self.is_open_east(x, y).then(|| cell + 1),
+            (0 < x && self.is_open_east(x - 1, y)).then(|| cell - 1),
+            self.is_open_north(x, y).then(|| cell + self.width),
+            (0 < y && self.is_open_north(x, y - 1)).then(|| cell - self.width),
+        ];
+        open.into_iter().flatten()
+    }
+
+    /// Whether a passage leads from one cell to a neighbour.
+    fn is_joined(&self, a: usize, b: usize) -> bool {
+        self.open_neighbours(a).any(|next| next == b)
     }
 
     /// Where the outer wall is open, each place once, in a fixed order.

@@ -1,10 +1,6 @@
 //! The shortest way through a layout.
 
-use super::Layout;
-use std::collections::VecDeque;
-
-/// Not reached.
-const UNSEEN: usize = usize::MAX;
+use super::{Layout, Ways};
 
 impl Layout {
     /// The way from start to goal as indices `y * width + x`: of the shortest ways between any two doors the longest one,
@@ -16,60 +12,25 @@ impl Layout {
         if ends.len() < 2 {
             ends.extend(0..self.width * self.height);
         }
+        let ways = Ways::of_layout(self);
         // Two sweeps: the farthest from anywhere is one end of the longest way (exact where ways do not branch and join).
         let farthest_from = |cell: usize| {
-            let (_, order) = self.search(cell);
-            let mut is_end = vec![false; self.width * self.height];
-            ends.iter().for_each(|end| is_end[*end] = true);
-            order.into_iter().rfind(|cell| is_end[*cell]).unwrap_or(cell)
+            let distances = ways.distances_from(&[cell]);
+            let reached = ends.iter().copied().filter(|end| distances[*end].is_finite());
+            reached.max_by(|a, b| distances[*a].total_cmp(&distances[*b])).unwrap_or(cell)
         };
         let one = farthest_from(*ends.first()?);
         let other = farthest_from(one);
         let reading_order = |cell: usize| (self.height - cell / self.width, cell % self.width);
         let (from, to) = if reading_order(other) < reading_order(one) { (other, one) } else { (one, other) };
-        self.shortest_way(from, to).filter(|way| 1 < way.len())
-    }
-
-    /// For each cell the next one on the way to `to`, [`UNSEEN`] where there is none; and the cells in the order of their
-    /// distance.
-    fn search(&self, to: usize) -> (Vec<usize>, Vec<usize>) {
-        let mut next_to = vec![UNSEEN; self.width * self.height];
-        next_to[to] = to;
-        let (mut open, mut order) = (VecDeque::from([to]), Vec::new());
-        while let Some(cell) = open.pop_front() {
-            order.push(cell);
-            let (x, y) = (cell % self.width, cell / self.width);
-            let beside = [
-                self.is_open_east(x, y).then(|| cell + 1),
-                (0 < x && self.is_open_east(x - 1, y)).then(|| cell - 1),
-                self.is_open_north(x, y).then(|| cell + self.width),
-                (0 < y && self.is_open_north(x, y - 1)).then(|| cell - self.width),
-            ];
-            for next in beside.into_iter().flatten() {
-                if next_to[next] == UNSEEN {
-                    next_to[next] = cell;
-                    open.push_back(next);
-                }
-            }
-        }
-        (next_to, order)
+        Some(ways.solve(from, to)?.places).filter(|way| 1 < way.len())
     }
 
     /// A shortest way between two cells, both included, as indices `y * width + x`; `None` when there is none.
     pub fn shortest_way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         let n_cells = self.width * self.height;
-        if n_cells <= from || n_cells <= to {
-            return None;
-        }
-        // Searched from the end, so that the way comes out in order.
-        let (next_to, _) = self.search(to);
-        let mut way = vec![from];
-        let mut cell = from;
-        while cell != to {
-            cell = Some(next_to[cell]).filter(|next| *next != UNSEEN)?;
-            way.push(cell);
-        }
-        Some(way)
+        let known = from < n_cells && to < n_cells;
+        known.then(|| Ways::of_layout(self).solve(from, to))?.map(|solution| solution.places)
     }
 }
 
