@@ -1,9 +1,10 @@
 //! The cross-check: our engines beside rapier3d and closed-form mechanics.
-//!
-//! So far one engine, [`RapierEngine`], which puts rapier3d behind maze-core's [`maze_core::Engine`], so that a scene can
-//! be run through both. `tests/head_on.rs` does so with a head-on bounce.
 #![forbid(unsafe_code)]
 
-mod rapier_engine;
+mod board;
+pub mod engine;
+#[cfg(feature = "report")]
+pub mod scene;
 
-pub use rapier_engine::RapierEngine;
+pub use board::{Board, WallMesh};
+pub use engine::{ClosedForm, Motion, PacedPublished, RapierEngine, RollingEngine, Walls};
