@@ -137,7 +137,8 @@ fn bounces() -> Vec<Scene> {
     });
     scenes.push(Scene {
         walls: Walls::Rectangles(concave),
-        ball: ball([4.0 - R, 2.0 - R], [2.0, 2.0]),
+        // Not a whole number of any ticks away, so that both touches fall into one.
+        ball: ball([4.0 - R, 2.0 - R], [2.1, 2.1]),
         duration_s: 1.5,
         truth,
         ..scene("concave-both", "Into a concave corner, both walls at once.", Family::Bounce)
@@ -198,7 +199,8 @@ fn corners() -> Vec<Scene> {
         ("graze-just-in", "Grazes a corner by a millionth of its radius.", -1.0e-6, at_origin),
         ("graze-out", "Misses a corner by a millionth of its radius.", 1.0e-6, Motion::FREE),
     ] {
-        scenes.push(corner(name.to_owned(), about.to_owned(), R * (1.0 + excess), truth));
+        let grazing = corner(name.to_owned(), about.to_owned(), R * (1.0 + excess), truth);
+        scenes.push(Scene { family: Family::Graze, ..grazing });
     }
     scenes
 }
@@ -229,6 +231,7 @@ fn slides() -> Vec<Scene> {
             ball: ball([-2.0, R], [SPEED, 0.0]),
             gravity: pressed,
             duration_s: 3.0,
+            family: Family::Seams,
             ..on_ground("seams-slide", "Slides over a wall made of 120 pieces: no bump.")
         },
         Scene {
@@ -236,6 +239,7 @@ fn slides() -> Vec<Scene> {
             ball: ball([-2.0, 1.0 + R], [SPEED, -1.0]),
             gravity: pressed,
             duration_s: 3.0,
+            family: Family::Seams,
             ..on_ground("seams-bounce", "Bounces along a wall made of 120 pieces.")
         },
         Scene {

@@ -13,14 +13,14 @@ pub enum Gravity {
         /// Towards +x and +y.
         tilt_deg: [f64; 2],
     },
-    /// To and fro, from level.
+    /// To and fro, from its largest tilt on: the board begins at rest.
     Sinusoidal {
         /// Largest tilt towards +x and +y.
         amplitude_deg: [f64; 2],
-        /// Of both (Hz); y runs a quarter turn behind x, so that the slope goes round.
+        /// Hz.
         frequency_hz: f64,
     },
-    /// A new random tilt every so often, reached steadily: a hand that hunts for a way.
+    /// A new random tilt every so often, reached without a jerk: a hand that hunts for a way.
     Random {
         /// The same seed gives the same tilts.
         seed: u64,
@@ -48,14 +48,15 @@ impl Gravity {
             Self::Flat => [0.0; 2],
             Self::Constant { tilt_deg } => tilt_deg,
             Self::Sinusoidal { amplitude_deg: [x, y], frequency_hz } => {
-                let (sin, cos) = (std::f64::consts::TAU * frequency_hz * time_s).sin_cos();
-                [x * sin, y * (1.0 - cos) / 2.0]
+                let cos = (std::f64::consts::TAU * frequency_hz * time_s).cos();
+                [x * cos, y * cos]
             }
             Self::Random { seed, hold_s, max_deg } => {
                 let knots = time_s / hold_s;
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count from 0")]
                 let index = knots.floor() as u64;
                 let part = knots - knots.floor();
+                let part = part * part * (3.0 - 2.0 * part);
                 [0, 1].map(|axis| {
                     // The board begins level.
                     let knot = |k: u64| if k == 0 { 0.0 } else { max_deg * noise(seed, 2 * k + axis) };
@@ -106,7 +107,7 @@ mod tests {
         for step in 0..10_000_u32 {
             let [now, next] = [0.0, 0.001].map(|ahead| random.tilt_deg(f64::from(step) * 0.001 + ahead));
             for axis in [0, 1] {
-                assert!((next[axis] - now[axis]).abs() <= 16.0 / 0.5 * 0.001 + 1.0e-9);
+                assert!((next[axis] - now[axis]).abs() <= 1.5 * 16.0 / 0.5 * 0.001 + 1.0e-9);
                 largest = largest.max(now[axis].abs());
             }
         }

@@ -27,8 +27,12 @@ pub enum Family {
     Drop,
     /// A convex corner.
     Corner,
+    /// Past a convex corner by a hair's breadth, on either side.
+    Graze,
     /// Resting, sliding, squeezing through.
     Slide,
+    /// Along a wall made of many pieces.
+    Seams,
     /// Fast, at a thin wall.
     Speed,
     /// A random maze with random tilts.
@@ -41,12 +45,14 @@ pub enum Family {
 
 impl Family {
     /// In the order of the report.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Tilt,
         Self::Bounce,
         Self::Drop,
         Self::Corner,
+        Self::Graze,
         Self::Slide,
+        Self::Seams,
         Self::Speed,
         Self::Maze,
         Self::Level,
