@@ -58,6 +58,23 @@ impl Family {
         Self::Level,
         Self::Own,
     ];
+
+    /// As in results.json.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "tilt",
+            Self::Bounce => "bounce",
+            Self::Drop => "drop",
+            Self::Corner => "corner",
+            Self::Graze => "graze",
+            Self::Slide => "slide",
+            Self::Seams => "seams",
+            Self::Speed => "speed",
+            Self::Maze => "maze",
+            Self::Level => "level",
+            Self::Own => "own",
+        }
+    }
 }
 
 /// Where the walls come from.
