@@ -283,18 +283,19 @@ fn plots(scene: &SceneResult) -> [Option<Plot>; 3] {
         x_ticks: Vec::new(),
         lines: lines(case, false, |run| run.distance.clone()),
     };
-    #[allow(clippy::cast_precision_loss, reason = "a count of bounces")]
     let apexes = |run: &crate::results::RunResult| {
         let points =
             run.metrics.apexes.iter().enumerate().map(|(index, apex)| [index as f64 + 1.0, apex.max(1.0e-6)]);
         points.collect::<Vec<_>>()
     };
+    let n_bounces = case.runs.iter().map(|run| run.metrics.apexes.len()).max().unwrap_or(0);
+    let stride = n_bounces.div_ceil(8).max(1);
     let bounces = Plot {
         title: format!("Height of each bounce, tick {at}"),
         x_label: "bounce".to_owned(),
         x_scale: Scale::Linear,
         y_scale: Scale::Log,
-        x_ticks: Vec::new(),
+        x_ticks: (1..=n_bounces).step_by(stride).map(|k| (k as f64, k.to_string())).collect(),
         lines: lines(case, true, apexes),
     };
     let by_tick = Plot {

@@ -4,8 +4,8 @@ use super::number::plain;
 use std::fmt::Write;
 
 /// Size of a plot (SVG units, pixels at full width).
-const WIDTH: f64 = 420.0;
-const HEIGHT: f64 = 240.0;
+const WIDTH: f64 = 360.0;
+const HEIGHT: f64 = 230.0;
 /// Room for labels: left, right, top, bottom.
 const MARGIN: [f64; 4] = [52.0, 12.0, 26.0, 38.0];
 
@@ -74,6 +74,14 @@ impl Axis {
         Self { scale, low, high, from, to }
     }
 
+    /// The same axis for what lies between two values, whichever is the larger, and a little air.
+    fn between(self, a: f64, b: f64) -> Self {
+        let value = |value: f64| if self.scale == Scale::Log { value.max(LOG_FLOOR).log10() } else { value };
+        let (low, high) = (value(a.min(b)), value(a.max(b)));
+        let air = 0.04 * (high - low);
+        Self { low: low - air, high: high + air, ..self }
+    }
+
     fn place(&self, value: f64) -> f64 {
         let value = if self.scale == Scale::Log { value.max(LOG_FLOOR).log10() } else { value };
         let part = ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
@@ -134,7 +142,10 @@ impl Plot {
         let [left, right, top, bottom] = MARGIN;
         let values =
             |axis: usize| self.lines.iter().flat_map(move |line| line.points.iter().map(move |p| p[axis]));
-        let x = Axis::new(self.x_scale, values(0), left, WIDTH - right);
+        let mut x = Axis::new(self.x_scale, values(0), left, WIDTH - right);
+        if let [(first, _), .., (last, _)] = self.x_ticks[..] {
+            x = x.between(first, last);
+        }
         let y = Axis::new(self.y_scale, values(1), HEIGHT - bottom, top);
         let mut svg = format!(
             "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\">\

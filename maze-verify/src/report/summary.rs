@@ -16,6 +16,7 @@ struct Topic {
     families: &'static [Family],
     value: Value,
     shown: fn(f64) -> String,
+    note: &'static str,
 }
 
 /// An engine's worst value of a topic.
@@ -45,87 +46,99 @@ pub struct Finding {
 const TOPICS: &[Topic] = &[
     Topic {
         title: "Running on a tilted board",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Tilt],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: " On a swinging board rapier-rolling solves the real problem, which projected gravity only approximates: see below.",
     },
     Topic {
         title: "Bouncing off walls",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Bounce],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: "",
     },
     Topic {
         title: "Height of the first bounce",
-        asks: "Off the true height",
+        asks: "Error of the height",
         families: &[Family::Drop],
         value: |m| m.errors.as_ref()?.first_apex_part,
         shown: percent,
+        note: "",
     },
     Topic {
         title: "Coming to rest",
-        asks: "Off the true moment",
+        asks: "Error of the time of rest",
         families: &[Family::Drop],
         value: |m| m.errors.as_ref()?.rest_s,
         shown: duration,
+        note: " An engine that never comes to rest counts with all the time that is left.",
     },
     Topic {
         title: "Corners",
-        asks: "Direction after the bounce, off by",
+        asks: "Error of the direction after the bounce",
         families: &[Family::Corner],
         value: |m| m.errors.as_ref()?.angle_deg,
         shown: |value| format!("{}°", plain(value)),
+        note: "",
     },
     Topic {
         title: "Grazing a corner",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Graze],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: " rapier's contacts begin 0.02 corridors before the touch.",
     },
     Topic {
         title: "Sliding, resting, squeezing through",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Slide],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: "",
     },
     Topic {
         title: "A wall made of many pieces",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Seams],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: "",
     },
     Topic {
         title: "High speed",
-        asks: "Farthest from the true place, by the way gone",
+        asks: "Distance to the true place, by the way gone",
         families: &[Family::Speed],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
+        note: "",
     },
     Topic {
         title: "Penetration",
-        asks: "Deepest in a wall at a tick's end, in corridors",
+        asks: "Depth in a wall at a tick's end, in corridors",
         families: &Family::ALL,
         value: |m| Some(m.penetration_max),
         shown: plain,
+        note: "",
     },
     Topic {
         title: "Through the wall",
-        asks: "Ticks that ended where no way leads, in the worst scene",
+        asks: "Ticks that ended where no way leads",
         families: &Family::ALL,
         value: |m| Some(f64::from(m.n_tunnels)),
-        shown: plain,
+        shown: |value| format!("{value:.0}"),
+        note: "",
     },
     Topic {
         title: "Energy from nothing",
-        asks: "Largest gain in one tick, by the largest kinetic energy",
+        asks: "Gain in one tick, by the largest kinetic energy",
         families: &Family::ALL,
         value: |m| Some(m.energy_gain_part),
         shown: percent,
+        note: "",
     },
 ];
 
@@ -163,31 +176,56 @@ impl Topic {
         ranking.sort_by(|a, b| a.worst.total_cmp(&b.worst));
         let last = ranking.last()?;
         let shown: Vec<String> = ranking.iter().map(|ranked| (self.shown)(ranked.worst)).collect();
-        let text = if last.worst < ROUNDING {
-            format!("{}: 0 but for rounding for everybody.", self.asks)
-        } else {
-            let groups = groups(&ranking, self.shown);
-            let listed = match groups.split_last() {
-                Some((only, [])) => only.clone(),
-                Some((last, others)) => format!("{}; farthest off {last}", others.join(", then ")),
-                None => return None,
-            };
-            format!("{}: {listed} (in {}).", self.asks, last.scene)
+        let groups = groups(&ranking, self.shown);
+        let text = match groups.split_last() {
+            Some(((last, value), [(first, best), between @ ..])) => {
+                let between: String =
+                    between.iter().map(|(names, value)| format!(", then {names} ({value})")).collect();
+                format!(
+                    "Closest to the truth: {first} ({best}){between}. Farthest off: {last} ({value}, in {scene}). {}.{}",
+                    self.asks,
+                    self.note,
+                    scene = ranking.last().map_or("", |ranked| &ranked.scene)
+                )
+            }
+            _ if last.worst < ROUNDING => {
+                format!("Nobody is off by more than rounding. {}.{}", self.asks, self.note)
+            }
+            _ => format!(
+                "{} off by {}. {}.{}",
+                last.engine.name(),
+                (self.shown)(last.worst),
+                self.asks,
+                self.note
+            ),
         };
         Some(Finding { title: self.title.to_owned(), text, ranking, shown })
     }
 }
 
-/// Engines with the same value are named together, best first.
-fn groups(ranking: &[Ranked], shown: fn(f64) -> String) -> Vec<String> {
+/// Names and value of engines that are equally good, best first.
+fn groups(ranking: &[Ranked], shown: fn(f64) -> String) -> Vec<(String, String)> {
     let alike = |a: &Ranked, b: &Ranked| b.worst - a.worst <= ALIKE * b.worst || b.worst < ROUNDING;
     let together = |group: &[Ranked]| {
         let names: Vec<&str> = group.iter().map(|ranked| ranked.engine.name()).collect();
         let worst = group.last().map_or(0.0, |ranked| ranked.worst);
-        let value = if worst < ROUNDING { "0".to_owned() } else { shown(worst) };
-        format!("{} {value}", names.join(" and "))
+        let value = match worst {
+            0.0 => "0".to_owned(),
+            worst if worst < ROUNDING => "0 but for rounding".to_owned(),
+            worst => shown(worst),
+        };
+        (listed(&names), value)
     };
     ranking.chunk_by(alike).map(together).collect()
+}
+
+/// a, b and c.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => (*only).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {
