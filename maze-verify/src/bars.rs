@@ -4,7 +4,7 @@ use crate::contender::Contender::{self, Continuous, Published, RapierCuboids, Ra
 use crate::metrics::{FirstBounce, Metrics};
 use crate::relaxation::Relaxation;
 use crate::results::SceneResult;
-use crate::scene::Family::{self, Bounce, Corner, Drop, Graze, Level, Maze, Seams, Slide, Speed, Tilt};
+use crate::scene::Family::{self, Bounce, Corner, Drop, Graze, Level, Maze, Own, Seams, Slide, Speed, Tilt};
 use serde::{Deserialize, Serialize};
 
 /// A limit on one metric of some engines in some scenes.
@@ -59,7 +59,8 @@ pub struct Verdict {
 
 const ALL: &[Family] = &Family::ALL;
 const NAMED: &[Family] = &[Tilt, Bounce, Drop, Corner, Graze, Slide, Seams, Speed, Maze, Level];
-const WITH_TRUTH: &[Family] = &[Tilt, Bounce, Drop, Corner, Graze, Slide, Seams, Speed];
+/// A truth that a user states is held to as well.
+const WITH_TRUTH: &[Family] = &[Tilt, Bounce, Drop, Corner, Graze, Slide, Seams, Speed, Own];
 /// Where the contacts are faces.
 const FACES: &[Family] = &[Tilt, Bounce, Drop, Slide, Speed];
 const PLANAR_RAPIER: &[Contender] = &[RapierCuboids, RapierMesh];

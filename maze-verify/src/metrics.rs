@@ -29,7 +29,7 @@ const SETTLE_TICKS: usize = 2;
 /// A flight shorter than this many ticks has no apex that could be read from the ends of ticks.
 const MIN_FLIGHT_TICKS: usize = 4;
 
-/// An engine's run: the ball at the start and after every tick.
+/// An engine's run: the ball at the start and after every tick, finite throughout.
 #[derive(Clone, Debug)]
 pub struct Track {
     /// Length of a tick (s).
@@ -225,9 +225,7 @@ impl Track {
 }
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    // NaN would hide in f64::max; it counts as endless.
-    let endless = |value: f64| if value.is_nan() { f64::MAX } else { value };
-    values.into_iter().map(endless).fold(0.0, f64::max)
+    values.into_iter().fold(0.0, f64::max)
 }
 
 fn angle_deg(velocity: Vector2<f64>) -> f64 {
@@ -331,7 +329,7 @@ fn apexes_of(stage: &Stage, track: &Track) -> Vec<f64> {
 }
 
 fn diverged_s(track: &Track, other: &Track) -> Option<f64> {
-    let index = track.distances(other).iter().position(|distance| !(*distance <= DIVERGED))?;
+    let index = track.distances(other).iter().position(|distance| DIVERGED < *distance)?;
     #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
     Some(index as f64 * track.tick_s)
 }

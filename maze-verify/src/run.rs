@@ -150,7 +150,7 @@ fn track(stage: &Stage, tick_s: f64, engine: Contender, build: &Build) -> Result
         let begin = Instant::now();
         ticks.push(engine.tick(*pull)?);
         taken_s += begin.elapsed().as_secs_f64();
-        balls.push(engine.ball());
+        balls.push(engine.ball().checked()?);
     }
     let accelerations = pulls.into_iter().map(|pull| pull * stage.scene.spec.rolling).collect();
     Ok(Some(Track { tick_s, balls, accelerations, ticks, taken_s }))

@@ -53,6 +53,15 @@ pub fn html(results: &Results) -> String {
             .collect()
     });
     scene_list("Scenes, worst first", &told, N_OPEN, &mut page);
+    if let Some(plot) = parting(&mazes) {
+        let _ = write!(
+            page,
+            "<h2>Random mazes: when engines part</h2><p class=\"soft\">Before they part, the first bounces agree (see the bars); \
+             after that only distributions can.</p><div class=\"views\">{}{}</div>",
+            plot.svg(),
+            liveliness(&mazes).svg()
+        );
+    }
     scene_list("Random mazes, earliest parted first", &mazes, usize::from(told.is_empty()), &mut page);
     page += "<p class=\"soft\">Definitions of all metrics, the reasons of all bars and what cannot be matched with rapier: \
              docs/verification.md.</p></body></html>\n";
@@ -320,6 +329,57 @@ fn errors_by_tick(scene: &SceneResult, engine: Contender) -> Option<Line> {
         points,
         dots: true,
     })
+}
+
+/// Sorted values of all mazes and which part of them is not above each: the distribution as a line.
+fn distribution(
+    mazes: &[&SceneResult],
+    engine: Contender,
+    value: impl Fn(&Metrics) -> Option<f64>,
+) -> Option<Line> {
+    let runs = mazes.iter().filter_map(|scene| scene.first_case()?.run(engine));
+    let all: Vec<Option<f64>> = runs.map(|run| value(&run.metrics)).collect();
+    let mut values: Vec<f64> = all.iter().copied().flatten().collect();
+    values.sort_by(f64::total_cmp);
+    let n_all = all.len() as f64;
+    let points =
+        values.iter().enumerate().map(|(index, value)| [*value, 100.0 * (index as f64 + 1.0) / n_all]);
+    let points: Vec<[f64; 2]> = points.collect();
+    (!points.is_empty()).then(|| Line {
+        class: class_of(engine),
+        name: engine.name().to_owned(),
+        points,
+        dots: false,
+    })
+}
+
+fn parting(mazes: &[&SceneResult]) -> Option<Plot> {
+    let lines: Vec<Line> = Contender::ALL
+        .into_iter()
+        .filter_map(|engine| distribution(mazes, engine, |metrics| metrics.diverged_s))
+        .collect();
+    (!lines.is_empty()).then(|| Plot {
+        title: "Mazes in which it has parted from continuous (%)".to_owned(),
+        x_label: "time (s)".to_owned(),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
+        x_ticks: Vec::new(),
+        lines,
+    })
+}
+
+fn liveliness(mazes: &[&SceneResult]) -> Plot {
+    let lines = Contender::ALL
+        .into_iter()
+        .filter_map(|engine| distribution(mazes, engine, |metrics| Some(metrics.mean_speed)));
+    Plot {
+        title: "Mazes with at most this mean speed (%)".to_owned(),
+        x_label: "corridors/s".to_owned(),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
+        x_ticks: Vec::new(),
+        lines: lines.collect(),
+    }
 }
 
 /// A column of a scene's table.

@@ -1,7 +1,7 @@
 //! Numbers for people.
 
 /// Three digits; very small and very large ones as a power of ten.
-pub fn plain(value: f64) -> String {
+pub(super) fn plain(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         "0".to_owned()
@@ -19,17 +19,17 @@ pub fn plain(value: f64) -> String {
 }
 
 /// A part as percent.
-pub fn percent(value: f64) -> String {
+pub(super) fn percent(value: f64) -> String {
     format!("{} %", plain(100.0 * value))
 }
 
 /// Seconds.
-pub fn duration(value: f64) -> String {
+pub(super) fn duration(value: f64) -> String {
     format!("{} s", plain(value))
 }
 
 /// A tick length (s) as people write it.
-pub fn tick(tick_s: f64) -> String {
+pub(super) fn tick(tick_s: f64) -> String {
     let per_s = 1.0 / tick_s;
     if (per_s - per_s.round()).abs() < 1.0e-6 && 1.0 < per_s {
         format!("1/{per_s:.0} s")
@@ -45,8 +45,8 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let told: Vec<String> =
-            [0.0, 1.234e-9, 0.01234, 0.5, 3.14159, 42.42, 1234.5, 2.0e7].into_iter().map(plain).collect();
-        assert_eq!(told, ["0", "1.2e-9", "0.012", "0.500", "3.14", "42.4", "1234", "2.0e7"]);
+            [0.0, 1.234e-9, 0.01234, 0.5, 3.456, 42.42, 1234.5, 2.0e7].into_iter().map(plain).collect();
+        assert_eq!(told, ["0", "1.2e-9", "0.012", "0.500", "3.46", "42.4", "1234", "2.0e7"]);
         assert_eq!([tick(0.03), tick(1.0 / 240.0)], ["0.03 s", "1/240 s"]);
     }
 }

@@ -18,12 +18,8 @@ pub(super) fn section(results: &Results, page: &mut String) {
               x″ = 5/7 (g sin θ + θ′² x) − r θ″, which knows the board's turning, follows rapier all the way. Swings that throw \
               the ball off the board end there.</p><div class=\"views\">";
     for plot in [
-        by_frequency(relaxation, "Projected gravity: largest distance (corridors)", |swing| {
-            swing.projected_off
-        }),
-        by_frequency(relaxation, "Equation of the rolling sphere: largest distance", |swing| {
-            swing.equation_off
-        }),
+        by_frequency(relaxation, "Projected gravity off by (corridors)", |swing| swing.projected_off),
+        by_frequency(relaxation, "Equation off by (corridors)", |swing| swing.equation_off),
     ] {
         *page += &plot.svg();
     }

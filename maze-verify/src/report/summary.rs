@@ -138,7 +138,7 @@ const TOPICS: &[Topic] = &[
         families: &Family::ALL,
         value: |m| Some(m.energy_gain_part),
         shown: percent,
-        note: "",
+        note: " A board in motion does work on rapier-rolling's ball.",
     },
 ];
 
@@ -303,16 +303,12 @@ fn speed(scenes: &[SceneResult]) -> Option<Finding> {
 fn relaxation(results: &Results) -> Option<Finding> {
     let relaxation = results.relaxation.as_ref()?;
     let held = relaxation.held.iter().map(|held| (held.part * 7.0 / 5.0 - 1.0).abs()).fold(0.0, f64::max);
-    let gentle = relaxation
-        .swings
-        .iter()
-        .filter(|swing| swing.amplitude_deg == 5.0 && swing.frequency_hz == 0.5)
-        .next();
-    let wild = relaxation
-        .swings
-        .iter()
-        .filter(|swing| swing.amplitude_deg == 20.0 && swing.frequency_hz == 0.5)
-        .next();
+    let find_swing = |amplitude_deg: f64| {
+        let mut swings = relaxation.swings.iter();
+        swings.find(|swing| swing.amplitude_deg == amplitude_deg && swing.frequency_hz == 0.5)
+    };
+    let gentle = find_swing(5.0);
+    let wild = find_swing(20.0);
     let told = |swing: &crate::relaxation::Swing| {
         format!(
             "±{}° at {} Hz: {} of {} corridors",

@@ -279,7 +279,7 @@ fn speeds() -> Vec<Scene> {
 
 fn mazes() -> Vec<Scene> {
     let maze = |seed: u64| {
-        let rolls = seed % 2 == 0;
+        let rolls = seed.is_multiple_of(2);
         let sides = [6, 8, 10, 12];
         let [width, height] = [(seed % 4) as usize, (seed / 4 % 4) as usize].map(|index| sides[index]);
         let rolling = if rolls { BallSpec::ROLLING_SPHERE } else { BallSpec::POINT_MASS };
