@@ -12,6 +12,9 @@ const BOUNCE_PART: f64 = 1.0e-3;
 /// Slower than this (units/s) to the end is rest: a corridor takes a hundred seconds.
 pub const REST_SPEED: f64 = 0.01;
 
+/// And for at least this long (s).
+const REST_S: f64 = 0.1;
+
 /// Deeper than this (units) is counted as a tick in a wall: above the rounding of f32 at 10 units (1e-6), far below what
 /// is seen.
 pub const COUNTED_DEPTH: f64 = 1.0e-4;
@@ -208,9 +211,9 @@ impl Track {
     fn rest_s(&self) -> Option<f64> {
         let still = |ball: &Ball| ball.velocity.norm() < REST_SPEED;
         let n_still = self.balls.iter().rev().take_while(|ball| still(ball)).count();
-        // One still moment at the end is a turning point.
-        #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
-        (1 < n_still).then(|| (self.balls.len() - n_still) as f64 * self.tick_s)
+        // Shorter than this at the end may be a turning point.
+        let is_rest = REST_S <= n_still as f64 * self.tick_s;
+        is_rest.then(|| (self.balls.len() - n_still) as f64 * self.tick_s)
     }
 
     fn way(&self) -> f64 {
@@ -265,7 +268,6 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
     let kinetic = largest(track.balls.iter().map(|ball| ball.velocity.norm_squared() / 2.0));
     let bounces = track.bounces();
     let start = track.balls[0].position;
-    #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
     let n_ticks = track.ticks.len() as f64;
     let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
     Metrics {
@@ -298,7 +300,6 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
 fn first_bounce(bounces: &[Bounce], tick_s: f64) -> Option<FirstBounce> {
     let bounce = bounces.first()?;
     let last = bounces.iter().rfind(|next| next.first_tick <= bounce.first_tick + SETTLE_TICKS)?;
-    #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
     let time_s = (bounce.first_tick + 1) as f64 * tick_s;
     Some(FirstBounce {
         time_s,
@@ -330,7 +331,6 @@ fn apexes_of(stage: &Stage, track: &Track) -> Vec<f64> {
 
 fn diverged_s(track: &Track, other: &Track) -> Option<f64> {
     let index = track.distances(other).iter().position(|distance| DIVERGED < *distance)?;
-    #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
     Some(index as f64 * track.tick_s)
 }
 
@@ -338,7 +338,6 @@ fn errors(stage: &Stage, track: &Track, truth: &Track) -> Errors {
     let position = largest(track.distances(truth));
     let kinetic = largest(truth.balls.iter().map(|ball| ball.velocity.norm_squared() / 2.0));
     let (ours, theirs) = (track.energies(), truth.energies());
-    #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
     let energy = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).sum::<f64>() / ours.len() as f64;
     let (seen, wanted) = (track.bounces(), truth.bounces());
     let first = wanted.first().map(|wanted| (seen.first(), wanted));

@@ -93,6 +93,8 @@ pub struct RunResult {
     pub path: Vec<[f64; 2]>,
     /// Time (s) and distance (units) to closed form, else to the continuous engine; thinned, largest of each stretch.
     pub distance: Vec<[f64; 2]>,
+    /// Time (s) and energy (units²/s², for a mass of 1, less the work of gravity), where there is a truth; thinned likewise.
+    pub energy: Vec<[f64; 2]>,
 }
 
 impl Results {

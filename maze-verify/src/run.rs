@@ -135,6 +135,7 @@ fn run_case(
             Some(reference) if keep_paths && !std::ptr::eq(reference, track) => samples(track, reference),
             _ => Vec::new(),
         },
+        energy: if keep_paths && truth.is_some() { stretches(track, &track.energies()) } else { Vec::new() },
     });
     Ok(CaseResult { tick_s, runs: runs.collect() })
 }
@@ -186,16 +187,19 @@ fn thinned_path(track: &Track) -> Vec<[f64; 2]> {
     kept.iter().step_by(stride).chain(kept.last()).map(|point| [rounded(point.x), rounded(point.y)]).collect()
 }
 
-/// Distance over time: of each stretch the largest.
+/// Distance over time.
 fn samples(track: &Track, reference: &Track) -> Vec<[f64; 2]> {
-    let distances = track.distances(reference);
-    let stride = distances.len().div_ceil(MAX_SAMPLES).max(1);
-    #[allow(clippy::cast_precision_loss, reason = "a count of ticks")]
+    stretches(track, &track.distances(reference))
+}
+
+/// A value at the ticks' ends over time: of each stretch the largest.
+fn stretches(track: &Track, values: &[f64]) -> Vec<[f64; 2]> {
+    let stride = values.len().div_ceil(MAX_SAMPLES).max(1);
     let time_s = |index: usize| rounded(index as f64 * track.tick_s);
-    let stretches = distances.chunks(stride).enumerate();
+    let stretches = values.chunks(stride).enumerate();
     stretches
         .map(|(index, stretch)| {
-            let largest = stretch.iter().copied().fold(0.0, f64::max);
+            let largest = stretch.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             // Three digits are enough for a plot and keep the file small.
             let digits = format!("{largest:.2e}").parse().unwrap_or(largest);
             [time_s(index * stride + stretch.len() - 1), digits]

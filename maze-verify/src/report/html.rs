@@ -277,8 +277,8 @@ fn lines(
     case.runs.iter().map(line).filter(|line| !line.points.is_empty()).collect()
 }
 
-fn plots(scene: &SceneResult) -> [Option<Plot>; 3] {
-    let Some(case) = scene.first_case() else { return [None, None, None] };
+fn plots(scene: &SceneResult) -> [Option<Plot>; 4] {
+    let Some(case) = scene.first_case() else { return [const { None }; 4] };
     let at = tick(case.tick_s);
     let reference = match case.runs.iter().any(|run| run.metrics.errors.is_some()) {
         true => "closed form",
@@ -307,6 +307,14 @@ fn plots(scene: &SceneResult) -> [Option<Plot>; 3] {
         x_ticks: (1..=n_bounces).step_by(stride).map(|k| (k as f64, k.to_string())).collect(),
         lines: lines(case, true, apexes),
     };
+    let energy = Plot {
+        title: format!("Energy less the work of gravity, tick {at}"),
+        x_label: "time (s)".to_owned(),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
+        x_ticks: Vec::new(),
+        lines: lines(case, false, |run| run.energy.clone()),
+    };
     let by_tick = Plot {
         title: "Largest distance to closed form, by tick".to_owned(),
         x_label: "tick length".to_owned(),
@@ -317,7 +325,7 @@ fn plots(scene: &SceneResult) -> [Option<Plot>; 3] {
     };
     let has_lines = |plot: Plot| (!plot.lines.is_empty()).then_some(plot);
     let by_tick = if 1 < scene.cases.len() { has_lines(by_tick) } else { None };
-    [has_lines(over_time), has_lines(bounces), by_tick]
+    [has_lines(over_time), has_lines(bounces), by_tick, has_lines(energy)]
 }
 
 fn errors_by_tick(scene: &SceneResult, engine: Contender) -> Option<Line> {
@@ -385,7 +393,7 @@ fn liveliness(mazes: &[&SceneResult]) -> Plot {
 /// A column of a scene's table.
 type Column = (&'static str, fn(&Metrics) -> Option<String>);
 
-const COLUMNS: [Column; 10] = [
+const COLUMNS: [Column; 11] = [
     ("off by", |m| Some(plain(m.errors.as_ref()?.position))),
     ("of the way", |m| Some(percent(m.errors.as_ref()?.position_part))),
     ("bounces", |m| Some(m.n_bounces.to_string())),
@@ -395,6 +403,7 @@ const COLUMNS: [Column; 10] = [
     ("p99", |m| Some(plain(m.penetration_p99))),
     ("tunnels", |m| Some(m.n_tunnels.to_string())),
     ("parted", |m| Some(format!("{} s", plain(m.diverged_s?)))),
+    ("ns a tick", |m| Some(plain(m.ns_per_tick))),
     ("rests", |m| Some(format!("{} s", plain(m.rest_s?)))),
 ];
 
