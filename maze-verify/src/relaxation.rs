@@ -85,7 +85,7 @@ pub struct Relaxation {
 
 fn spec(restitution: f64) -> BallSpec {
     let radius = Radius::new(R).unwrap_or(BallSpec::RADIUS);
-    BallSpec { radius, restitution, rolling: BallSpec::ROLLING_SPHERE }
+    BallSpec { radius, restitution, rolling: BallSpec::ROLLING_SPHERE, ..BallSpec::default() }
 }
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds of ticks")]

@@ -58,4 +58,10 @@ fn rapier_refuses_what_our_engine_refuses() {
     assert!(rapier.tick(Vector2::new(f64::NAN, 0.0)).is_err());
     assert!(rapier.place(Ball::at(Vector2::new(f64::INFINITY, 0.0))).is_err());
     assert_eq!(rapier.ball(), ball());
+    let board = Board::from_rectangles(vec![WALL]).unwrap();
+    let rubbing = BallSpec { resistance: 0.1, ..BallSpec::default() };
+    assert!(
+        RapierEngine::new(&board, Walls::Cuboids, rubbing, ball(), 0.03).is_err(),
+        "it knows no resistance"
+    );
 }

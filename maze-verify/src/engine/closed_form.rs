@@ -2,6 +2,7 @@
 //!
 //! Written without a line of maze-core's physics: a flaw there cannot hide here.
 
+use super::without_resistance;
 use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
 use nalgebra::Vector2;
 
@@ -51,7 +52,7 @@ impl ClosedForm {
     /// # Errors
     /// A position or velocity that is not finite.
     pub fn new(motion: Motion, spec: BallSpec, ball: Ball, tick_s: f64) -> Result<Self, OutOfRange> {
-        let (spec, from) = (spec.checked()?, ball.checked()?);
+        let (spec, from) = (without_resistance(spec)?, ball.checked()?);
         Ok(Self { motion, spec, tick_s, from, acceleration: Vector2::zeros(), n_ticks: 0 })
     }
 

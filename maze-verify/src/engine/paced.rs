@@ -7,10 +7,11 @@ use std::sync::Arc;
 /// [`Published`] with a tick of any length.
 ///
 /// The report's tick is 0.03 s. Its method knows time only as way a tick and gain of way a tick, so a tick of dt seconds is
-/// the same method with velocities times dt / 0.03 and accelerations times (dt / 0.03)².
+/// the same method with velocities times dt / 0.03 and accelerations, rolling resistance among them, times (dt / 0.03)².
 #[derive(Clone, Debug)]
 pub struct PacedPublished {
     inner: Published,
+    spec: BallSpec,
     tick_s: f64,
 }
 
@@ -27,7 +28,8 @@ impl PacedPublished {
     ) -> Result<Self, OutOfRange> {
         let pace = tick_s / Published::TICK_S;
         let ball = Ball { velocity: ball.velocity * pace, ..ball };
-        Ok(Self { inner: Published::new(planes, spec, ball)?, tick_s })
+        let paced = BallSpec { resistance: spec.resistance * (pace * pace), ..spec };
+        Ok(Self { inner: Published::new(planes, paced, ball)?, spec, tick_s })
     }
 
     fn pace(&self) -> f64 {
@@ -56,7 +58,7 @@ impl Engine for PacedPublished {
     }
 
     fn spec(&self) -> &BallSpec {
-        self.inner.spec()
+        &self.spec
     }
 
     fn tick_s(&self) -> f64 {

@@ -1,5 +1,6 @@
 //! rapier3d as a [`maze_core::Engine`], held in the plane: gravity is projected for it, as for our engines.
 
+use super::without_resistance;
 use crate::board::Board;
 use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
 use nalgebra::Vector2;
@@ -41,7 +42,7 @@ impl RapierEngine {
         ball: Ball,
         tick_s: f64,
     ) -> Result<Self, OutOfRange> {
-        let (ball, spec) = (ball.checked()?, spec.checked()?);
+        let (ball, spec) = (ball.checked()?, without_resistance(spec)?);
         let restitution = to_f32(spec.restitution);
         let mut world = world(tick_s);
         for wall in colliders(board, walls, HALF_HEIGHT, 0.0)? {

@@ -2,6 +2,7 @@
 //! ball rolls on it in three dimensions.
 
 use super::rapier::{Walls, colliders, in_plane, to_f32, world};
+use super::without_resistance;
 use crate::board::Board;
 use maze_core::gravity::WORLD_GRAVITY;
 use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
@@ -36,7 +37,7 @@ impl RollingEngine {
     /// # Errors
     /// A position or velocity that is not finite; a ball that neither slides freely nor rolls as a solid sphere.
     pub fn new(board: &Board, spec: BallSpec, ball: Ball, tick_s: f64) -> Result<Self, OutOfRange> {
-        let (ball, spec) = (ball.checked()?, spec.checked()?);
+        let (ball, spec) = (ball.checked()?, without_resistance(spec)?);
         let rolls = spec.rolling == BallSpec::ROLLING_SPHERE;
         if !rolls && spec.rolling != BallSpec::POINT_MASS {
             return Err(OutOfRange {
