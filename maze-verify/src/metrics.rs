@@ -73,6 +73,8 @@ pub struct FirstBounce {
     pub velocity_in: [f64; 2],
     /// Velocity after (units/s).
     pub velocity_out: [f64; 2],
+    /// Acceleration of the centre in its tick (units/s²).
+    pub pull: f64,
     /// Velocity after all bounces that begin within [`SETTLE_TICKS`] (units/s): in a concave corner one engine meets both
     /// walls in the tick in which another meets the first.
     pub settled: [f64; 2],
@@ -273,7 +275,7 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
     Metrics {
         n_ticks: count(track.ticks.len()),
         n_bounces: count(bounces.len()),
-        first_bounce: first_bounce(&bounces, track.tick_s),
+        first_bounce: first_bounce(&bounces, track),
         first_is_corner: track
             .ticks
             .iter()
@@ -297,16 +299,17 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
     }
 }
 
-fn first_bounce(bounces: &[Bounce], tick_s: f64) -> Option<FirstBounce> {
+fn first_bounce(bounces: &[Bounce], track: &Track) -> Option<FirstBounce> {
     let bounce = bounces.first()?;
     let last = bounces.iter().rfind(|next| next.first_tick <= bounce.first_tick + SETTLE_TICKS)?;
-    let time_s = (bounce.first_tick + 1) as f64 * tick_s;
+    let time_s = (bounce.first_tick + 1) as f64 * track.tick_s;
     Some(FirstBounce {
         time_s,
         restitution: bounce.velocity_out.dot(&bounce.normal) / -bounce.velocity_in.dot(&bounce.normal),
         angle_deg: angle_deg(bounce.velocity_out),
         velocity_in: bounce.velocity_in.into(),
         velocity_out: bounce.velocity_out.into(),
+        pull: track.accelerations[bounce.first_tick].norm(),
         settled: last.velocity_out.into(),
     })
 }

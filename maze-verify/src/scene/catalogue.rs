@@ -14,6 +14,11 @@ const R: f64 = 0.25;
 /// Usual speed (units/s): some corridors a second, as in play.
 const SPEED: f64 = 3.0;
 
+/// Random tilts (s, degrees): at the rim of the largest maze, 8 units out, the board accelerates by at most
+/// 8 · 6 · 20° / (2 s)² = 4 units/s², so that it does not throw a real ball over the walls.
+const HOLD_S: f64 = 2.0;
+const MAX_DEG: f64 = 10.0;
+
 /// How many random mazes.
 const N_MAZES: u64 = 100;
 
@@ -286,9 +291,9 @@ fn mazes() -> Vec<Scene> {
         Scene {
             walls: Walls::Random { width, height, seed },
             spec: BallSpec { rolling, ..spec(BallSpec::RESTITUTION) },
-            gravity: Gravity::Random { seed, hold_s: 0.8, max_deg: 10.0 },
+            gravity: Gravity::Random { seed, hold_s: HOLD_S, max_deg: MAX_DEG },
             duration_s: 20.0,
-            ticks_s: vec![TICKS_S[0]],
+            ticks_s: vec![TICKS_S[0], TICKS_S[3]],
             ..scene(
                 format!("maze-{seed:03}"),
                 format!(
@@ -305,9 +310,9 @@ fn mazes() -> Vec<Scene> {
 fn levels() -> Vec<Scene> {
     let level = |(name, bytes): (&str, &[u8])| Scene {
         walls: Walls::Obj(bytes.to_vec()),
-        gravity: Gravity::Random { seed: 1, hold_s: 0.8, max_deg: 10.0 },
+        gravity: Gravity::Random { seed: 1, hold_s: HOLD_S, max_deg: MAX_DEG },
         duration_s: 20.0,
-        ticks_s: vec![TICKS_S[0]],
+        ticks_s: vec![TICKS_S[0], TICKS_S[3]],
         ..scene(
             format!("level-{name}"),
             format!("The game's level {name} under random tilts."),
