@@ -327,6 +327,23 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
     }
 
     #[test]
+    fn the_example_of_the_documentation_is_good() {
+        let page = include_str!("../../../docs/verification.md");
+        let begin = page.find("```toml\n").unwrap() + "```toml\n".len();
+        let example = &page[begin..begin + page[begin..].find("```").unwrap()];
+        assert_eq!(read(example).unwrap()[0].name, "my-scene");
+        // What it comments out is good as well.
+        let other = example
+            .replace("walls = ", "# walls = ")
+            .replace("# maze = ", "maze = ")
+            .replace("position = [0, 0], velocity = [3, 0], ", "")
+            .replace("gravity.constant", "# gravity.constant")
+            .replace("# gravity.random", "gravity.random")
+            .replace("truth.room", "# truth.room");
+        read(&other).unwrap()[0].set_up().unwrap();
+    }
+
+    #[test]
     fn what_is_wrong_is_named_with_its_line() {
         for (from, to, line, reason) in [
             ("restitution = 0.5", "restitution = 1.5", 8, "restitution"),
