@@ -178,7 +178,7 @@ fn parse_partition(text: &str) -> Result<Partition, String> {
     let pair = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
     let partition = pair.map(|(k, n)| Partition { k, n });
     partition
-        .filter(|part| 1 <= part.k && part.k <= part.n && part.n <= 10_000)
+        .filter(|part| 1 <= part.k && part.k <= part.n && part.n <= Partition::MAX)
         .ok_or_else(|| "expected K/N with 1 <= K <= N, such as 2/4".to_owned())
 }
 

@@ -75,7 +75,7 @@ pub struct FirstBounce {
     pub velocity_out: [f64; 2],
     /// Acceleration of the centre in its tick (units/s²).
     pub pull: f64,
-    /// Velocity after all bounces that begin within [`SETTLE_TICKS`] (units/s): in a concave corner one engine meets both
+    /// Velocity after all bounces that begin within `SETTLE_TICKS` (units/s): in a concave corner one engine meets both
     /// walls in the tick in which another meets the first.
     pub settled: [f64; 2],
 }

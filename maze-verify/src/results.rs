@@ -20,6 +20,9 @@ pub struct Partition {
 }
 
 impl Partition {
+    /// Most parts of a run.
+    pub const MAX: usize = 10_000;
+
     /// All scenes.
     pub const WHOLE: Self = Self { k: 1, n: 1 };
 
@@ -123,6 +126,9 @@ impl Results {
     pub fn merge(parts: Vec<Self>) -> Result<Self, String> {
         let Some(first) = parts.first() else { return Err("no part given".to_owned()) };
         let (n, n_scenes, program) = (first.partition.n, first.n_scenes, first.program.clone());
+        if !(1..=Partition::MAX).contains(&n) {
+            return Err(format!("a run in {n} parts: expected 1 to {}", Partition::MAX));
+        }
         let mut seen = vec![false; n];
         for part in &parts {
             if (part.partition.n, part.n_scenes) != (n, n_scenes) || part.program != program {

@@ -8,9 +8,13 @@ use serde::Deserialize;
 use std::ops::Range;
 use toml::Spanned;
 
-/// Longest scene (s) and shortest tick (s): together at most 10 million ticks.
+/// Longest scene (s), shortest tick (s), and most ticks: a run keeps some 100 bytes a tick and engine.
 const MAX_DURATION_S: f64 = 1000.0;
 const MIN_TICK_S: f64 = 1.0e-4;
+const MAX_TICKS: f64 = 1.0e6;
+
+/// Most rectangles: the plan is cut at all of their sides, into up to 16 million cells.
+const MAX_WALLS: usize = 2000;
 
 /// Largest coordinate (units) and speed (units/s) of a scene: rapier's f32 still tells 1e-3 units apart.
 const MAX_COORDINATE: f64 = 1.0e4;
@@ -151,11 +155,14 @@ fn scene_from(place: &Text<'_>, scene: Spanned<SceneToml>) -> Result<Scene, Scen
     let ticks_s = match scene.ticks_s {
         None => TICKS_S.to_vec(),
         Some(ticks) => {
-            let good = ticks.get_ref().iter().all(|tick| MIN_TICK_S <= *tick && *tick <= duration_s);
+            let good = ticks
+                .get_ref()
+                .iter()
+                .all(|tick| MIN_TICK_S <= *tick && *tick <= duration_s && duration_s / tick <= MAX_TICKS);
             place.expect(
                 good && !ticks.get_ref().is_empty(),
                 ticks.span(),
-                "ticks_s: expected one or more lengths from 0.0001 s to the scene's",
+                "ticks_s: expected one or more lengths from 0.0001 s to the scene's, a million ticks at most",
             )?;
             ticks.into_inner()
         }
@@ -195,6 +202,8 @@ fn walls_from(
                 x0 < x1 && y0 < y1 && is_in(&[*x0, *y0, *x1, *y1], MAX_COORDINATE)
             };
             let reason = "walls: expected [left, below, right, above] with left < right and below < above, up to 10000";
+            let few = walls.get_ref().len() <= MAX_WALLS;
+            place.expect(few, walls.span(), "walls: expected at most 2000 rectangles")?;
             place.expect(walls.get_ref().iter().all(good), walls.span(), reason)?;
             let bounds = |[x0, y0, x1, y1]: &[f64; 4]| Bounds {
                 low: Vector2::new(*x0, *y0),
