@@ -37,8 +37,8 @@ pub fn html(results: &Results) -> String {
     );
     header(results, &mut page);
     legend(&mut page);
-    page += "<h2>In plain words</h2><p class=\"soft\">Made from this run's numbers. Unless said otherwise each scene counts \
-             with its longest tick, which for the named scenes is the game's 0.03 s; each engine with its worst scene.</p>";
+    page += "<h2>In plain words</h2><p class=\"soft\">Made from this run's numbers: each engine with its worst scene and tick. What is told of \
+             mazes holds for the game's tick of 0.03 s.</p>";
     page += "<div class=\"findings\">";
     for finding in findings(results) {
         card(&finding, &mut page);

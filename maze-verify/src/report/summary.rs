@@ -1,6 +1,6 @@
 //! Who is closer to the truth where, in words made from the numbers.
 
-use super::number::{duration, percent, plain};
+use super::number::{duration, percent, plain, tick};
 use crate::contender::Contender;
 use crate::metrics::Metrics;
 use crate::results::{Results, SceneResult};
@@ -26,7 +26,7 @@ pub struct Ranked {
     pub engine: Contender,
     /// Its worst value.
     pub worst: f64,
-    /// In which scene.
+    /// In which scene, with which tick.
     pub scene: String,
 }
 
@@ -158,14 +158,16 @@ pub fn findings(results: &Results) -> Vec<Finding> {
     findings
 }
 
-/// The worst of an engine's first-tick runs in some families.
+/// The worst of an engine's runs in some families, whatever the tick.
 fn worst(scenes: &[SceneResult], engine: Contender, families: &[Family], value: Value) -> Option<Ranked> {
     let scenes = scenes.iter().filter(|scene| families.contains(&scene.family));
-    let values = scenes.filter_map(|scene| {
-        let run = scene.first_case()?.run(engine)?;
-        Some(Ranked { engine, worst: value(&run.metrics)?, scene: scene.name.clone() })
+    let cases = scenes.flat_map(|scene| scene.cases.iter().map(move |case| (scene, case)));
+    let values = cases.filter_map(|(scene, case)| {
+        let worst = value(&case.run(engine)?.metrics)?;
+        Some(Ranked { engine, worst, scene: format!("{} at {}", scene.name, tick(case.tick_s)) })
     });
-    values.max_by(|a, b| a.worst.total_cmp(&b.worst))
+    // Of equals the first, which has the longer tick.
+    values.reduce(|a, b| if a.worst < b.worst { b } else { a })
 }
 
 impl Topic {

@@ -38,7 +38,7 @@ const BLOCKS: [Block; 4] = [
 
 /// Errors by family and engine with each scene's first tick length, then every bar.
 pub fn table(results: &Results) -> String {
-    let mut text = String::new();
+    let mut text = String::from("The worst of each family, with the longest tick of each scene\n\n");
     for block in &BLOCKS {
         block.write(results, &mut text);
     }
