@@ -1,9 +1,36 @@
 //! The cross-check: our engines beside rapier3d and closed-form mechanics.
 //!
-//! So far one engine, [`RapierEngine`], which puts rapier3d behind maze-core's [`maze_core::Engine`], so that a scene can
-//! be run through both. `tests/head_on.rs` does so with a head-on bounce.
+//! Without the feature `report` there are only walls ([`Board`]) and engines, all behind maze-core's [`maze_core::Engine`]:
+//! what a game needs that wants to be played under rapier. With it, scenes go one way:
+//!
+//! ```text
+//! Scene -> Stage -> Track (an engine's run) -> Metrics -> SceneResult -> Results: verdicts -> table, results.json, report.html
+//! ```
 #![forbid(unsafe_code)]
 
-mod rapier_engine;
+mod board;
+pub mod engine;
 
-pub use rapier_engine::RapierEngine;
+#[cfg(feature = "report")]
+pub mod bars;
+#[cfg(feature = "report")]
+mod contender;
+#[cfg(feature = "report")]
+pub mod metrics;
+#[cfg(feature = "report")]
+pub mod relaxation;
+#[cfg(feature = "report")]
+pub mod report;
+#[cfg(feature = "report")]
+pub mod results;
+#[cfg(feature = "report")]
+mod run;
+#[cfg(feature = "report")]
+pub mod scene;
+
+pub use board::{Board, WallMesh};
+#[cfg(feature = "report")]
+pub use contender::{Build, Contender, build};
+pub use engine::{ClosedForm, Motion, PacedPublished, RapierEngine, RollingEngine, Walls};
+#[cfg(feature = "report")]
+pub use run::{RunError, run};

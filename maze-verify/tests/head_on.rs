@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_core::{Ball, BallSpec, Bounds, Engine, Facing, Plane, Published, SortedPlanes};
-use maze_verify::RapierEngine;
+use maze_verify::{Board, RapierEngine, Walls};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -20,7 +20,8 @@ fn published() -> Published {
 }
 
 fn rapier() -> RapierEngine {
-    RapierEngine::new([WALL], BallSpec::default(), ball(), Published::TICK_S).unwrap()
+    let board = Board::from_rectangles(vec![WALL]).unwrap();
+    RapierEngine::new(&board, Walls::Cuboids, BallSpec::default(), ball(), Published::TICK_S).unwrap()
 }
 
 /// Ticks until well after the bounce; the number of hits and the ball at the end.
@@ -57,4 +58,10 @@ fn rapier_refuses_what_our_engine_refuses() {
     assert!(rapier.tick(Vector2::new(f64::NAN, 0.0)).is_err());
     assert!(rapier.place(Ball::at(Vector2::new(f64::INFINITY, 0.0))).is_err());
     assert_eq!(rapier.ball(), ball());
+    let board = Board::from_rectangles(vec![WALL]).unwrap();
+    let rubbing = BallSpec { resistance: 0.1, ..BallSpec::default() };
+    assert!(
+        RapierEngine::new(&board, Walls::Cuboids, rubbing, ball(), 0.03).is_err(),
+        "it knows no resistance"
+    );
 }

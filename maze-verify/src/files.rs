@@ -1,0 +1,56 @@
+//! Files in and out; an output is whole or not there.
+
+use crate::BadInput;
+use std::fmt::Display;
+use std::io::Write;
+use std::path::Path;
+
+/// Largest file that is read: a results.json of thousands of scenes.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// Bad input, with the file's name in front.
+pub(crate) fn in_file(path: &Path, reason: impl Display) -> BadInput {
+    BadInput(format!("{}: {reason}", path.display()))
+}
+
+/// The whole file as text.
+pub(crate) fn read_text(path: &Path) -> Result<String, BadInput> {
+    let metadata = std::fs::metadata(path).map_err(|error| in_file(path, error))?;
+    if !metadata.is_file() {
+        return Err(in_file(path, "not an ordinary file"));
+    }
+    if MAX_BYTES < metadata.len() {
+        return Err(in_file(path, format!("{} bytes, expected at most {MAX_BYTES}", metadata.len())));
+    }
+    let bytes = std::fs::read(path).map_err(|error| in_file(path, error))?;
+    String::from_utf8(bytes).map_err(|_| in_file(path, "not a text in UTF-8"))
+}
+
+/// The directory, if it is not there yet.
+pub(crate) fn make_directory(path: &Path) -> Result<(), BadInput> {
+    std::fs::create_dir_all(path).map_err(|error| in_file(path, error))
+}
+
+/// Writes beside the target under a temporary name, then renames.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), BadInput> {
+    let failed = |error: std::io::Error| in_file(path, format!("cannot write: {error}"));
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+    let mut file = tempfile::Builder::new();
+    // A temporary file is private by default; the output is an ordinary file.
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let mut file = file.tempfile_in(directory.unwrap_or(Path::new("."))).map_err(failed)?;
+    file.write_all(bytes).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// Prints to stdout. A reader that has seen enough (`| head`) is no error.
+pub(crate) fn print(text: &str) -> Result<(), BadInput> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(BadInput(format!("cannot print: {error}")))
+        }
+        _ => Ok(()),
+    }
+}

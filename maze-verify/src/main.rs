@@ -1,0 +1,256 @@
+//! `maze-verify`: the cross-check on the command line.
+
+mod files;
+
+use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
+use indicatif::{ProgressBar, ProgressStyle};
+use maze_verify::results::{Partition, Results};
+use maze_verify::scene::{self, Scene};
+use maze_verify::{Contender, build, relaxation, report, run};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Our engines, rapier3d and closed form on the same scenes.
+#[derive(Parser)]
+#[command(name = "maze-verify", version)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Lists the scenes and the engines
+    List,
+    /// Runs scenes and says whether every bar holds (exit status 1 when not)
+    ///
+    /// Example: maze-verify run --scene 'corner-*' --out target/report
+    Run(RunArguments),
+    /// Joins the parts of a run that was split with --partition
+    ///
+    /// Example: maze-verify merge part1 part2 --out whole
+    Merge {
+        /// Directories with a results.json each
+        #[arg(required = true, value_name = "DIR")]
+        parts: Vec<PathBuf>,
+        #[command(flatten)]
+        output: OutputArguments,
+    },
+}
+
+#[derive(Args)]
+struct RunArguments {
+    /// Scenes of one's own (see docs/verification.md) instead of the named ones
+    #[arg(value_name = "FILE.toml")]
+    files: Vec<PathBuf>,
+    /// Only scenes whose name holds this, or matches it when it has * or ? [repeatable]
+    #[arg(long, value_name = "NAME")]
+    scene: Vec<String>,
+    /// Only this engine [repeatable]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Contender::ALL.map(Contender::name)))]
+    engine: Vec<String>,
+    /// Only every N-th scene, from the K-th on: one part of N for N machines
+    #[arg(long, value_name = "K/N", value_parser = parse_partition, default_value = "1/1")]
+    partition: Partition,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+#[derive(Args)]
+struct OutputArguments {
+    /// Writes results.json and report.html there
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Prints results.json instead of the table
+    #[arg(long)]
+    json: bool,
+}
+
+/// Why there is no result: one line, exit status 2.
+struct BadInput(String);
+
+fn main() -> ExitCode {
+    let done = match CommandLine::parse().command {
+        Command::List => list(),
+        Command::Run(arguments) => run_scenes(&arguments),
+        Command::Merge { parts, output } => merge(&parts, &output),
+    };
+    match done {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(BadInput(reason)) => {
+            eprintln!("error: {}", reason.split_whitespace().collect::<Vec<_>>().join(" "));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn list() -> Result<bool, BadInput> {
+    let mut text = String::from("Engines\n");
+    for engine in Contender::ALL {
+        text += &format!("  {:<22} {}\n", engine.name(), engine.about());
+    }
+    text += "\nScenes\n";
+    for scene in scene::catalogue() {
+        text += &format!("  {:<22} {}\n", scene.name, scene.about);
+    }
+    files::print(&text).map(|()| true)
+}
+
+fn run_scenes(arguments: &RunArguments) -> Result<bool, BadInput> {
+    let all = chosen_scenes(arguments)?;
+    let n_scenes = all.len();
+    let part: Vec<(usize, Scene)> =
+        all.into_iter().enumerate().filter(|(index, _)| arguments.partition.has(*index)).collect();
+    let engines: Vec<Contender> = Contender::ALL
+        .into_iter()
+        .filter(|engine| {
+            arguments.engine.is_empty() || arguments.engine.iter().any(|name| name == engine.name())
+        })
+        .collect();
+    if let Some(out) = &arguments.output.out {
+        files::make_directory(out)?;
+    }
+    let bar = ProgressBar::new(part.len() as u64);
+    // The template is ours and known to be good; a plain bar is no harm either.
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    let on_scene = |name: &str| {
+        bar.set_message(name.to_owned());
+        bar.inc(1);
+    };
+    let scenes = run(&part, &engines, &build, &on_scene).map_err(|error| BadInput(error.to_string()))?;
+    // It is about the method and not about scenes: once a run, when the whole catalogue is asked for.
+    let wants_relaxation = arguments.partition.k == 1
+        && arguments.files.is_empty()
+        && arguments.scene.is_empty()
+        && engines.contains(&Contender::RapierRolling);
+    let relaxation = match wants_relaxation {
+        true => Some(relaxation::measure().map_err(|error| BadInput(error.to_string()))?),
+        false => None,
+    };
+    bar.finish_and_clear();
+    deliver(&Results::new(arguments.partition, n_scenes, scenes, relaxation), &arguments.output)
+}
+
+fn chosen_scenes(arguments: &RunArguments) -> Result<Vec<Scene>, BadInput> {
+    let mut scenes = if arguments.files.is_empty() { scene::catalogue() } else { Vec::new() };
+    for path in &arguments.files {
+        let text = files::read_text(path)?;
+        let read = scene::read(&text).map_err(|error| files::in_file(path, error))?;
+        for scene in read {
+            // Told with the file's name before anything runs.
+            scene.set_up().map_err(|error| files::in_file(path, format!("scene {}: {error}", scene.name)))?;
+            if scenes.iter().any(|known| known.name == scene.name) {
+                return Err(files::in_file(path, format!("there is a scene {} already", scene.name)));
+            }
+            scenes.push(scene);
+        }
+    }
+    let wanted = |scene: &Scene| {
+        arguments.scene.is_empty() || arguments.scene.iter().any(|pattern| is_match(pattern, &scene.name))
+    };
+    scenes.retain(wanted);
+    if scenes.is_empty() {
+        return Err(BadInput("no scene has such a name: `maze-verify list` shows all".to_owned()));
+    }
+    Ok(scenes)
+}
+
+/// A name holds a plain pattern; one with * (anything) or ? (one letter) has to match it whole.
+fn is_match(pattern: &str, name: &str) -> bool {
+    if !pattern.contains(['*', '?']) {
+        return name.contains(pattern);
+    }
+    fn whole(pattern: &[u8], name: &[u8]) -> bool {
+        match (pattern.split_first(), name.split_first()) {
+            (None, None) => true,
+            (Some((b'*', rest)), _) => whole(rest, name) || (!name.is_empty() && whole(pattern, &name[1..])),
+            (Some((p, pattern)), Some((n, name))) if *p == b'?' || p == n => whole(pattern, name),
+            _ => false,
+        }
+    }
+    whole(pattern.as_bytes(), name.as_bytes())
+}
+
+fn parse_partition(text: &str) -> Result<Partition, String> {
+    let pair = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    let partition = pair.map(|(k, n)| Partition { k, n });
+    partition
+        .filter(|part| 1 <= part.k && part.k <= part.n && part.n <= Partition::MAX)
+        .ok_or_else(|| "expected K/N with 1 <= K <= N, such as 2/4".to_owned())
+}
+
+fn merge(parts: &[PathBuf], output: &OutputArguments) -> Result<bool, BadInput> {
+    let read = |directory: &PathBuf| {
+        let path = directory.join("results.json");
+        let text = files::read_text(&path)?;
+        let schema: SchemaOnly = serde_json::from_str(&text).map_err(|error| files::in_file(&path, error))?;
+        if schema.schema != maze_verify::results::SCHEMA {
+            let expected = maze_verify::results::SCHEMA;
+            return Err(files::in_file(&path, format!("schema {}, expected {expected}", schema.schema)));
+        }
+        serde_json::from_str::<Results>(&text).map_err(|error| files::in_file(&path, error))
+    };
+    let parts = parts.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let whole = Results::merge(parts).map_err(BadInput)?;
+    if let Some(out) = &output.out {
+        files::make_directory(out)?;
+    }
+    deliver(&whole, output)
+}
+
+/// What tells whether the rest can be read.
+#[derive(serde::Deserialize)]
+struct SchemaOnly {
+    schema: u32,
+}
+
+/// Prints and writes; whether every bar holds.
+fn deliver(results: &Results, output: &OutputArguments) -> Result<bool, BadInput> {
+    let json =
+        serde_json::to_string(results).map_err(|error| BadInput(format!("results.json: {error}")))? + "\n";
+    if let Some(out) = &output.out {
+        files::write_whole(&out.join("results.json"), json.as_bytes())?;
+        files::write_whole(&out.join("report.html"), report::html(results).as_bytes())?;
+    }
+    if output.json {
+        files::print(&json)?;
+    } else {
+        files::print(&report::table(results))?;
+        files::print(&closing_line(results, output.out.as_deref()))?;
+    }
+    Ok(results.held())
+}
+
+fn closing_line(results: &Results, out: Option<&Path>) -> String {
+    let n_missed = results.verdicts.iter().filter(|verdict| !verdict.missed.is_empty()).count();
+    let n_bars = results.verdicts.len();
+    let verdict = match n_missed {
+        0 => format!("all {n_bars} bars hold"),
+        _ => format!("{n_missed} of {n_bars} bars missed"),
+    };
+    let report = out.map_or_else(String::new, |out| format!("; {}", out.join("report.html").display()));
+    format!("\n{} scenes, {verdict}{report}\n", results.scenes.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_match_by_part_or_by_pattern() {
+        assert!(is_match("corner", "corner-01") && is_match("01", "corner-01"));
+        assert!(is_match("corner-0?", "corner-01") && is_match("*-01", "corner-01") && is_match("*", "x"));
+        assert!(!is_match("corner-*", "concave-corner") && !is_match("c?", "corner"));
+    }
+
+    #[test]
+    fn partitions_are_read_and_checked() {
+        assert_eq!(parse_partition("2/3"), Ok(Partition { k: 2, n: 3 }));
+        for bad in ["0/3", "4/3", "1", "a/b", "1/0", "-1/2"] {
+            assert!(parse_partition(bad).is_err(), "{bad}");
+        }
+    }
+}

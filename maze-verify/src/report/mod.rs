@@ -1,0 +1,13 @@
+//! What people read: a table on the terminal and report.html. (results.json is [`crate::results::Results`] itself.)
+
+mod drawing;
+mod html;
+mod number;
+mod plot;
+mod relaxed;
+mod summary;
+mod table;
+
+pub use html::html;
+pub use summary::{Finding, findings};
+pub use table::table;
