@@ -30,12 +30,12 @@
 
 mod camera;
 mod capture;
-mod detail;
 mod gpu;
 mod light;
 mod mesh;
 mod occlusion;
 pub mod pass;
+mod quality;
 mod renderer;
 mod scene;
 mod shader;
@@ -43,8 +43,8 @@ mod texture;
 
 pub use camera::{Camera, FIELD_OF_VIEW_RAD, PITCH_RAD};
 pub use capture::{CAPTURE_FORMAT, capture};
-pub use detail::Detail;
 pub use gpu::{Acquired, Gpu, GpuError, WindowTarget};
+pub use quality::Quality;
 pub use renderer::Renderer;
 pub use scene::{BallView, Marker, Scene};
 pub use shader::{SHADERS, Shader};

@@ -151,8 +151,8 @@ pub(crate) struct Mipmapped {
 }
 
 impl Mipmapped {
-    /// Levels wider than the adapter's textures are left out.
-    pub(crate) fn new(gpu: &crate::Gpu, name: &str, image: &RgbImage) -> Self {
+    /// In `format`, whether the texture unit turns the bytes into light or leaves them in sRGB. Levels wider than the adapter's textures are left out.
+    pub(crate) fn new(gpu: &crate::Gpu, name: &str, image: &RgbImage, format: wgpu::TextureFormat) -> Self {
         let mut levels = mipmaps(image);
         let max_side = gpu.max_side();
         let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
@@ -168,7 +168,7 @@ impl Mipmapped {
             mip_level_count: u32::try_from(levels.len()).unwrap_or(1),
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            format,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });

@@ -1,7 +1,7 @@
 //! What the pictures show. Needs a driver: `apt-get install mesa-vulkan-drivers` gives one to any machine.
 
 use image::{Rgb, RgbImage, RgbaImage};
-use maze_render::{CAPTURE_FORMAT, Detail, Gpu, GpuError, Renderer, Scene, TextureSet, capture};
+use maze_render::{CAPTURE_FORMAT, Gpu, GpuError, Quality, Renderer, Scene, TextureSet, capture};
 use nalgebra::{UnitQuaternion, Vector3};
 
 mod support;
@@ -164,7 +164,7 @@ fn any_size_works_and_an_impossible_one_says_so() {
     let gpu = Gpu::offscreen_software().unwrap();
     let board = Board::carved(4, 4, 2);
     let mut renderer =
-        Renderer::with_detail(&gpu, CAPTURE_FORMAT, &flat_textures(GREY, GREY, GREY), Detail::FULL);
+        Renderer::with_quality(&gpu, CAPTURE_FORMAT, &flat_textures(GREY, GREY, GREY), Quality::High);
     let scene = board.scene(1.0);
     capture(&gpu, &mut renderer, [64, 48], &scene).expect("no maze yet: the table alone");
     renderer.set_maze(&gpu, &board.mesh()).unwrap();

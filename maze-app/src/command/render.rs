@@ -9,7 +9,7 @@ use crate::ui::to_points;
 use clap::Args;
 use image::ImageFormat;
 use maze_core::Tilt;
-use maze_render::{CAPTURE_FORMAT, Camera, Detail, Gpu, Renderer};
+use maze_render::{CAPTURE_FORMAT, Camera, Gpu, Quality, Renderer};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     game.show_tilt(arguments.tilt);
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
     // A picture may take its time on any driver.
-    let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
+    let mut renderer = Renderer::with_quality(&gpu, CAPTURE_FORMAT, &textures, Quality::High);
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
     let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);

@@ -11,15 +11,20 @@ pub(crate) struct Ball {
 
 impl Ball {
     pub(crate) fn new(shared: &Shared<'_>) -> Self {
+        // Without more samples the outline is smoothed by hand.
+        let fades_out = shared.n_samples == 1;
         let pipeline = shared.pipeline(&PassPipeline {
-            shader: shader::BALL,
-            constants: &[("sun_looks", shared.detail.sun_looks.into())],
+            constants: &[
+                ("sun_looks", shared.detail.sun_looks.into()),
+                ("fades_out", f64::from(u8::from(fades_out))),
+            ],
             groups: &[Some(shared.frame_layout), Some(shared.light_layout)],
             vertices: &[Some(Vertex::LAYOUT)],
             cull: Some(wgpu::Face::Back),
-            writes_depth: true,
+            blend: fades_out.then_some(wgpu::BlendState::ALPHA_BLENDING),
+            ..PassPipeline::new(shader::BALL)
         });
-        Self { pipeline, mesh: Mesh::ball(shared.device) }
+        Self { pipeline, mesh: Mesh::ball(shared.device, shared.detail.n_ball_splits) }
     }
 
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {

@@ -1,6 +1,9 @@
 // A lacquered ball: eight fields in ivory and cobalt, gold let into the seams, a gold-rimmed cap on each of the six
 // corners where they meet. Every turn shows.
 
+// Set where a pixel has one sample.
+override fades_out: bool = false;
+
 struct Corner {
     @builtin(position) clip: vec4<f32>,
     @location(0) position: vec3<f32>,
@@ -72,5 +75,11 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     room += vec3(1.5, 1.4, 1.25) * pane * lit_side;
     let mirrored = room * fresnel(f0, max(dot(n, v), 0.0)) * mix(0.6, 1.0, openness);
     let sun_glint = min(glint(n, v, roughness, f0) * SUN_LIGHT * sunlight, vec3(3.0));
-    return picture(diffuse + mirrored + sun_glint);
+    var colour_out = picture(diffuse + mirrored + sun_glint);
+    if fades_out {
+        // The outline lies where n turns away; a part of the radius farther in there are nv^2 / 2 of it left.
+        let nv = max(dot(n, v), 0.0);
+        colour_out.a = clamp(0.5 * nv * nv * frame.ball.w / max(pixel_at(p), 1e-5), 0.0, 1.0);
+    }
+    return colour_out;
 }
