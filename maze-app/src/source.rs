@@ -97,6 +97,20 @@ impl Source {
         Self { read: self.read.clone(), kind: Kind::File(path) }
     }
 
+    /// A file, or else the random maze of a size and a seed.
+    pub(crate) fn file_or_random(
+        read: &ReadArguments,
+        file: Option<PathBuf>,
+        size: GridSize,
+        seed: u64,
+    ) -> Self {
+        let kind = match file {
+            Some(path) => Kind::File(path),
+            None => Kind::Random { size, seed },
+        };
+        Self { read: read.clone(), kind }
+    }
+
     /// The words, one a line, that give this maze again on the command line.
     pub(crate) fn words(&self) -> Result<String, Failure> {
         let mut words = self.read.words();

@@ -5,9 +5,7 @@
 #![allow(clippy::cast_possible_truncation, reason = "drawing needs no more than f32")]
 
 use maze_core::{AssembleOptions, Maze, import};
-use maze_render::{
-    BallView, CAPTURE_FORMAT, Camera, Gpu, Marker, Quality, Renderer, Scene, TextureSet, capture, decode_bmp,
-};
+use maze_render::{BallView, Camera, Gpu, Marker, Quality, Renderer, Scene, TextureSet, capture, decode_bmp};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::time::{Duration, Instant};
 
@@ -38,10 +36,7 @@ fn main() -> Result<(), AnyError> {
     let maze = Maze::from_polygons(&mesh, &AssembleOptions::default())?;
     let mut contenders = Vec::new();
     for quality in Quality::ALL {
-        let format = match quality.wants_srgb_target() {
-            true => CAPTURE_FORMAT,
-            false => CAPTURE_FORMAT.remove_srgb_suffix(),
-        };
+        let format = quality.picture_format();
         let mut renderer = Renderer::with_quality(&gpu, format, &textures, quality);
         renderer.set_maze(&gpu, &maze.surface)?;
         contenders.push((renderer, target(&gpu, format), Duration::ZERO, Duration::ZERO));

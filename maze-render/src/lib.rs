@@ -40,6 +40,7 @@ mod renderer;
 mod scene;
 mod shader;
 mod texture;
+mod timer;
 
 pub use camera::{Camera, FIELD_OF_VIEW_RAD, PITCH_RAD};
 pub use capture::{CAPTURE_FORMAT, capture};
@@ -49,3 +50,4 @@ pub use renderer::Renderer;
 pub use scene::{BallView, Marker, Scene};
 pub use shader::{SHADERS, Shader};
 pub use texture::{TextureError, TextureSet, decode_bmp};
+pub use timer::GpuTimer;

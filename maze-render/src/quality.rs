@@ -66,6 +66,12 @@ impl Quality {
         self != Self::Low
     }
 
+    /// The format to make a [`crate::Renderer`] for when it draws pictures only.
+    pub fn picture_format(self) -> wgpu::TextureFormat {
+        let format = crate::CAPTURE_FORMAT;
+        if self.wants_srgb_target() { format } else { format.remove_srgb_suffix() }
+    }
+
     pub(crate) fn detail(self) -> Detail {
         let high =
             Detail { n_samples: 4, anisotropy: 16, sun_looks: 3, sun_map_side: 2048, n_ball_splits: 4 };

@@ -4,12 +4,13 @@ use crate::failure::Failure;
 use crate::files;
 use crate::game::{EngineKind, Game};
 use crate::sidecar;
+use crate::quality::QualityChoice;
 use crate::source::{ReadArguments, parse_pixel_size};
 use crate::ui::to_points;
 use clap::Args;
 use image::ImageFormat;
 use maze_core::Tilt;
-use maze_render::{CAPTURE_FORMAT, Camera, Gpu, Quality, Renderer};
+use maze_render::{Camera, Gpu, Renderer};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -41,6 +42,9 @@ pub(crate) struct Arguments {
     /// How the ball's motion is computed
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
+    /// How much is spent on the picture, which may take its time on any driver
+    #[arg(long, value_enum, default_value_t = QualityChoice::High)]
+    quality: QualityChoice,
     /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
@@ -71,8 +75,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     game.show_tilt(arguments.tilt);
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
-    // A picture may take its time on any driver.
-    let mut renderer = Renderer::with_quality(&gpu, CAPTURE_FORMAT, &textures, Quality::High);
+    let quality = arguments.quality.on(&gpu);
+    let mut renderer = Renderer::with_quality(&gpu, quality.picture_format(), &textures, quality);
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
     let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);

@@ -16,6 +16,14 @@ pub(crate) enum Action {
     NewMaze,
     /// Show or hide the list of keys.
     ToggleHelp,
+    /// The next quality of the picture.
+    NextQuality,
+    /// Show or hide what frames take.
+    ToggleFrames,
+    /// The picture into a file.
+    Screenshot,
+    /// The whole screen, or a window again.
+    ToggleFullscreen,
     Quit,
 }
 
@@ -23,6 +31,9 @@ pub(crate) enum Action {
 pub(crate) fn action_of(key: &Key) -> Option<Action> {
     Some(match key {
         Key::Named(NamedKey::Escape) => Action::Quit,
+        Key::Named(NamedKey::F3) => Action::ToggleFrames,
+        Key::Named(NamedKey::F11) => Action::ToggleFullscreen,
+        Key::Named(NamedKey::F12) => Action::Screenshot,
         Key::Character(text) => match text.to_ascii_lowercase().as_str() {
             "b" => Action::ZoomIn,
             "s" => Action::ZoomOut,
@@ -30,6 +41,7 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
             "r" => Action::Restart,
             "n" => Action::NewMaze,
             "h" => Action::ToggleHelp,
+            "q" => Action::NextQuality,
             _ => return None,
         },
         _ => return None,

@@ -1,11 +1,12 @@
 //! Clock, maze, keys, and the goal.
 
+use super::FramesPanel;
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
 use maze_core::Phase;
 
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
-const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
-const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+pub(super) const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
+pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
@@ -14,16 +15,20 @@ const MARGIN: f32 = 14.0;
 /// Below this width or height (points) only the clock is shown.
 const SMALL: [f32; 2] = [520.0, 300.0];
 
-/// The list of keys in one line, with its margins (points).
-const KEYS_HEIGHT: f32 = 50.0;
+/// The list of keys in two lines, with its margins (points).
+const KEYS_HEIGHT: f32 = 70.0;
 
-const KEYS: [(&str, &str); 8] = [
+const KEYS: [(&str, &str); 12] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
     ("B / S, wheel", "zoom in / out"),
     ("R", "restart"),
     ("N", "new maze"),
+    ("Q", "quality"),
+    ("F3", "frame times"),
+    ("F11", "whole screen"),
+    ("F12", "picture to a file"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];
@@ -37,8 +42,10 @@ pub(crate) struct Hud<'a> {
     /// Whether N brings another maze.
     pub(crate) has_next: bool,
     pub(crate) help: bool,
-    /// What went wrong, while it is worth saying.
+    /// News of a moment.
     pub(crate) notice: Option<&'a str>,
+    /// What frames take, when asked for.
+    pub(crate) frames: Option<FramesPanel<'a>>,
 }
 
 /// Once for a context: dark glass, warm text.
@@ -80,6 +87,15 @@ impl Hud<'_> {
             let title = RichText::new(self.title).color(QUIET_INK);
             ui.add(egui::Label::new(title).wrap_mode(egui::TextWrapMode::Extend));
         });
+        if let Some(frames) = self.frames {
+            area(ui.ctx(), "frames", Align2::RIGHT_TOP, vec2(-MARGIN, 4.5 * MARGIN), |ui| frames.show(ui));
+        }
+        if let Some(notice) = self.notice {
+            area(ui.ctx(), "notice", Align2::CENTER_TOP, vec2(0.0, MARGIN), |ui| {
+                let notice = RichText::new(notice).color(GOLD);
+                ui.add(egui::Label::new(notice).wrap_mode(egui::TextWrapMode::Extend));
+            });
+        }
         if self.help {
             self.keys(ui.ctx());
         }

@@ -1,7 +1,9 @@
 //! What is written over the picture, with egui.
 
+mod frames_panel;
 mod hud;
 
+pub(crate) use frames_panel::FramesPanel;
 pub(crate) use hud::Hud;
 
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
