@@ -41,7 +41,7 @@ pub(crate) struct Parts {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     number: u64,
-    /// Since the log began (s).
+    /// Since the first frame (s).
     at_s: f64,
     /// By the clock, since the frame before.
     frame: f64,
@@ -73,22 +73,24 @@ pub(crate) struct FrameLog {
     frames: VecDeque<Frame>,
     /// Older frames are dropped.
     keep_s: f64,
-    begun: Instant,
+    /// The first frame.
+    begun: Option<Instant>,
     last: Option<(Instant, Duration)>,
     n_frames: u64,
 }
 
 impl FrameLog {
     pub(crate) fn new(keep_s: f64) -> Self {
-        Self { frames: VecDeque::new(), keep_s, begun: Instant::now(), last: None, n_frames: 0 }
+        Self { frames: VecDeque::new(), keep_s, begun: None, last: None, n_frames: 0 }
     }
 
     /// Notes a frame that is done. The first has none before it to be measured from, and is left out.
     pub(crate) fn push(&mut self, parts: Parts) {
         let now = Instant::now();
         let used = ProcessTime::try_now().map_or(Duration::ZERO, |time| time.as_duration());
+        self.begun.get_or_insert(now);
         if let Some((last, used_then)) = self.last.replace((now, used)) {
-            let at_s = (now - self.begun).as_secs_f64();
+            let at_s = (now - self.begun.unwrap_or(last)).as_secs_f64();
             let (frame, process) = (ms(now - last), ms(used.saturating_sub(used_then)));
             self.frames.push_back(Frame { number: self.n_frames, at_s, frame, process, parts, gpu: None });
             while self.frames.front().is_some_and(|first| first.at_s < at_s - self.keep_s) {

@@ -48,8 +48,10 @@ pub(crate) const PLAIN: Shader = shader!(
     ]
 );
 
+pub(crate) const PAINT: Shader = shader!(["output.wgsl", "paint.wgsl"], &["vertex", "fragment"]);
+
 /// Every shader the renderer compiles.
-pub const SHADERS: [Shader; 6] = [SHADOW, BACKGROUND, MAZE, BALL, FLOOR_LIGHT, PLAIN];
+pub const SHADERS: [Shader; 7] = [SHADOW, BACKGROUND, MAZE, BALL, FLOOR_LIGHT, PLAIN, PAINT];
 
 impl Shader {
     pub(crate) fn module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {

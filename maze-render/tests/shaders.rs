@@ -58,7 +58,9 @@ fn uniforms_have_the_same_layout_on_both_sides() {
     let mut n_materials = 0;
     for shader in &SHADERS {
         let module = parsed(shader);
-        assert_eq!(layout(&module, "Frame"), Some(frame.clone()), "{}", shader.name);
+        // What is painted over a picture knows nothing of the maze.
+        let expected = (shader.name != "paint.wgsl").then(|| frame.clone());
+        assert_eq!(layout(&module, "Frame"), expected, "{}", shader.name);
         if let Some(found) = layout(&module, "Material") {
             assert_eq!(found, material, "{}", shader.name);
             n_materials += 1;

@@ -15,8 +15,8 @@ const MARGIN: f32 = 14.0;
 /// Below this width or height (points) only the clock is shown.
 const SMALL: [f32; 2] = [520.0, 300.0];
 
-/// The list of keys in two lines, with its margins (points).
-const KEYS_HEIGHT: f32 = 70.0;
+/// The list of keys in one line, with its margins (points).
+const KEYS_HEIGHT: f32 = 50.0;
 
 const KEYS: [(&str, &str); 12] = [
     ("drag", "tilt"),
