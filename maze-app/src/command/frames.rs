@@ -207,9 +207,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             timer.begin(&mut encoder, log.next_number());
         }
         renderer.draw(&gpu, &mut encoder, &view, size, &scene);
-        if std::env::var_os("NOHUD").is_none() {
-            overlay.draw(&gpu, &mut encoder, &view, size, 1.0, &hud);
-        }
+        overlay.draw(&gpu, &mut encoder, &view, size, 1.0, &hud);
         if let Some(timer) = &mut timer {
             timer.end(&mut encoder);
         }
