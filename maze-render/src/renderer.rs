@@ -134,7 +134,7 @@ impl Renderer {
         Self {
             background: Background::new(&shared),
             shadow: Shadow::new(&shared),
-            ball: Ball::new(&shared),
+            ball: Ball::new(&shared, &materials),
             maze,
             quality,
             materials,
@@ -312,7 +312,7 @@ impl Renderer {
                 plain.draw_over(&mut pass, &self.materials, &content.mesh);
             }
             if shows_ball {
-                self.ball.draw(&mut pass);
+                self.ball.draw(&mut pass, &self.materials);
             }
         }
     }

@@ -28,8 +28,10 @@ pub(crate) const MAZE: Shader = shader!(
     ["frame.wgsl", "output.wgsl", "lighting.wgsl", "material.wgsl", "marks.wgsl", "maze.wgsl"],
     &["vertex", "fragment"]
 );
-pub(crate) const BALL: Shader =
-    shader!(["frame.wgsl", "output.wgsl", "lighting.wgsl", "ball.wgsl"], &["vertex", "fragment"]);
+pub(crate) const BALL: Shader = shader!(
+    ["frame.wgsl", "output.wgsl", "lighting.wgsl", "material.wgsl", "ball.wgsl"],
+    &["vertex", "fragment"]
+);
 pub(crate) const FLOOR_LIGHT: Shader = shader!(
     ["frame.wgsl", "lighting.wgsl", "floor_light.wgsl"],
     &["vertex_sky", "fragment_sky", "vertex_wall", "fragment_wall", "vertex_ball", "fragment_ball"]

@@ -4,7 +4,7 @@ use wgpu::util::DeviceExt;
 
 use super::Shared;
 use crate::Gpu;
-use crate::texture::{Mipmapped, TextureSet};
+use crate::texture::{Bytes, Mipmapped, TextureSet, relief};
 
 /// Bricks: the picture shows one unit of wall, some eight courses, so that a brick is small beside the ball.
 const WALL_REPEATS_PER_UNIT: f32 = 1.0;
@@ -58,6 +58,7 @@ impl Materials {
                 },
                 super::texture_entry(1, wgpu::TextureSampleType::Float { filterable: true }),
                 super::sampler_entry(2, wgpu::SamplerBindingType::Filtering),
+                super::texture_entry(3, wgpu::TextureSampleType::Float { filterable: true }),
             ],
         });
         let computes_in_light = shared.quality.wants_srgb_target();
@@ -75,14 +76,21 @@ impl Materials {
             anisotropy_clamp: shared.detail.anisotropy.clamp(1, 16),
             ..Default::default()
         });
-        let format = match computes_in_light {
-            true => wgpu::TextureFormat::Rgba8UnormSrgb,
-            false => wgpu::TextureFormat::Rgba8Unorm,
+        let bytes = if computes_in_light { Bytes::Decoded } else { Bytes::Srgb };
+        let load = |name, image| {
+            let colour = Mipmapped::new(gpu, name, image, bytes);
+            // Where light is computed at corners a relief is of no use.
+            let relief =
+                computes_in_light.then(|| Mipmapped::new(gpu, name, &relief(image), Bytes::Linear).view);
+            (colour, relief)
         };
-        let wall = Mipmapped::new(gpu, "wall", &textures.wall, format);
-        let floor = Mipmapped::new(gpu, "floor", &textures.floor, format);
-        let top = Mipmapped::new(gpu, "top", &textures.top, format);
-        let group = |texture: &Mipmapped, repeats_per_unit, roughness, reflectance| {
+        let wall = load("wall", &textures.wall);
+        let floor = load("floor", &textures.floor);
+        let top = load("top", &textures.top);
+        let group = |(texture, relief): &(Mipmapped, Option<wgpu::TextureView>),
+                     repeats_per_unit,
+                     roughness,
+                     reflectance| {
             let [r, g, b] = texture.mean;
             let material =
                 Material { mean: [r, g, b, 0.0], repeats_per_unit, roughness, reflectance, unused: 0.0 };
@@ -101,6 +109,12 @@ impl Materials {
                         resource: wgpu::BindingResource::TextureView(&texture.view),
                     },
                     wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&sampler) },
+                    wgpu::BindGroupEntry {
+                        binding: 3,
+                        resource: wgpu::BindingResource::TextureView(
+                            relief.as_ref().unwrap_or(&texture.view),
+                        ),
+                    },
                 ],
             })
         };
@@ -110,6 +124,6 @@ impl Materials {
             group(&floor, FLOOR_REPEATS_PER_UNIT, 0.38, 0.04),
             group(&floor, FLOOR_REPEATS_PER_UNIT, 0.45, 0.04),
         ];
-        Self { groups, floor_mean: floor.mean, layout }
+        Self { groups, floor_mean: floor.0.mean, layout }
     }
 }

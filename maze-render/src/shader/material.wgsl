@@ -19,6 +19,8 @@ override kind: u32 = 0u;
 @group(2) @binding(0) var<uniform> material: Material;
 @group(2) @binding(1) var surface_texture: texture_2d<f32>;
 @group(2) @binding(2) var surface_sampler: sampler;
+// How the surface leans along the texture's axes, -1 to 1 as 0 to 1: bricks stand out from their joints.
+@group(2) @binding(3) var relief_texture: texture_2d<f32>;
 
 struct Vertex {
     @location(0) position: vec3<f32>,

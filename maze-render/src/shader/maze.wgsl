@@ -1,5 +1,8 @@
 // Walls, tops, floor and rim.
 
+// How far the relief stands out.
+const RELIEF = 0.9;
+
 struct Corner {
     @builtin(position) clip: vec4<f32>,
     @location(0) position: vec3<f32>,
@@ -18,7 +21,13 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     let pixel = 0.7 * length(fwidth(in.position.xy)) + 1e-5;
     let p = in.position;
     let v = normalize(frame.eye.xyz - p);
-    var n = normalize(in.normal);
+    let face = normalize(in.normal);
+    // The texture's axes in the maze: walls run along x or y and up, the rest along x and y.
+    let is_upright = abs(face.z) < 0.5;
+    let across = select(vec3(1.0, 0.0, 0.0), vec3(abs(face.y), abs(face.x), 0.0), is_upright);
+    let down = select(vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0), is_upright);
+    let lean = textureSample(relief_texture, surface_sampler, in.uv).rg * 2.0 - 1.0;
+    var n = normalize(face - RELIEF * (across * lean.x + down * lean.y));
     var finish = Finish(texel, material.roughness, vec3(material.reflectance), 1.0);
     var shine = vec3(0.0);
     var lit_at = p;
@@ -58,6 +67,6 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
         }
     }
     finish.occlusion *= sky_past_ball(p, n);
-    let sunlight = sun_over_walls(lit_at, normalize(in.normal)) * sun_past_ball(p);
+    let sunlight = sun_over_walls(lit_at, face) * sun_past_ball(p);
     return picture(lit(p, n, v, finish, sunlight) + shine);
 }
