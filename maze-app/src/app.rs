@@ -2,7 +2,7 @@
 
 mod graphics;
 mod idle;
-mod view;
+pub(crate) mod view;
 
 use crate::clock::Clock;
 use crate::command::play::Setup;

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use maze_render::{TextureSet, decode_bmp};
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest file that is read: far above any maze (a million faces are 60 MB).
 const MAX_BYTES: u64 = 1 << 28;
@@ -107,6 +107,12 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Tells something that is no failure, on stderr.
+pub(crate) fn note(text: &str) {
+    // Where nobody reads it, nothing is lost.
+    let _ = writeln!(std::io::stderr(), "maze-app: {text}");
 }
 
 /// Checks an output's name before the work is done for it.

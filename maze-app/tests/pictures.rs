@@ -70,13 +70,22 @@ fn expect_golden(name: &str, arguments: &[&str]) {
 }
 
 #[test]
-fn the_default_maze_looks_as_it_should() {
-    expect_golden("default", &[]);
+fn the_default_maze_looks_as_it_should_at_every_quality() {
+    for quality in ["low", "medium", "high"] {
+        expect_golden(quality, &["--quality", quality]);
+    }
 }
 
 #[test]
 fn a_tilted_maze_with_the_ball_on_its_way_looks_as_it_should() {
     expect_golden("tilted", &["--tilt", "12,-7", "--ticks", "25"]);
+    expect_golden("tilted-low", &["--tilt", "12,-7", "--ticks", "25", "--quality", "low"]);
+}
+
+#[test]
+fn zoomed_in_the_ball_and_what_is_around_it_look_as_they_should() {
+    expect_golden("zoomed", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6"]);
+    expect_golden("zoomed-low", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6", "--quality", "low"]);
 }
 
 #[test]
@@ -92,6 +101,8 @@ fn the_tolerance_notices_a_degree_of_tilt_and_a_ball_that_has_moved() {
     let still = decoded(&render(&["--tilt", "12,-7", "--ticks", "25"]));
     let (moved, _) = difference(&still, &decoded(&render(&["--tilt", "12,-7", "--ticks", "28"])));
     assert!(MAX_DIFFERENT_PART < moved, "{moved}");
+    let (other_quality, _) = difference(&picture, &decoded(&render(&["--quality", "medium"])));
+    assert!(MAX_DIFFERENT_PART < other_quality, "{other_quality}");
 }
 
 #[test]

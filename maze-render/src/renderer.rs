@@ -240,6 +240,11 @@ impl Renderer {
         self.quality
     }
 
+    /// What is drawn differently from what was asked for, a line each: textures beyond the adapter's limit.
+    pub fn notes(&self) -> &[String] {
+        &self.materials.notes
+    }
+
     /// The format of the views that [`Renderer::draw`] takes.
     pub fn target_format(&self) -> wgpu::TextureFormat {
         self.target_format

@@ -176,15 +176,15 @@ pub(crate) struct Mipmapped {
     pub(crate) view: wgpu::TextureView,
     /// Mean colour, linear.
     pub(crate) mean: [f32; 3],
+    /// What to tell when the picture was made smaller.
+    pub(crate) note: Option<String>,
 }
 
 impl Mipmapped {
     /// In `format`, whether the texture unit turns the bytes into light or leaves them in sRGB. Levels wider than the adapter's textures are left out.
     pub(crate) fn new(gpu: &crate::Gpu, name: &str, image: &RgbImage, bytes: Bytes) -> Self {
         let mut levels = mipmaps(image, bytes);
-        let max_side = gpu.max_side();
-        let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
-        levels.drain(..n_too_big.min(levels.len() - 1));
+        let note = shrink(&mut levels, name, gpu.max_side());
         let size = |level: &Level| wgpu::Extent3d {
             width: level.width,
             height: level.height,
@@ -213,7 +213,7 @@ impl Mipmapped {
             );
         }
         let mean = levels.last().map_or([0.5; 3], |level| level.pixels[0]);
-        Self { view: texture.create_view(&Default::default()), mean }
+        Self { view: texture.create_view(&Default::default()), mean, note }
     }
 }
 
@@ -231,6 +231,17 @@ pub(crate) fn relief(image: &RgbImage) -> RgbImage {
         let down = light(x, y + 1) - light(x, y + height - 1);
         image::Rgb([encode(across), encode(down), 0])
     })
+}
+
+/// Leaves out the levels that are wider than `max_side`, and says so.
+fn shrink(levels: &mut Vec<Level>, name: &str, max_side: u32) -> Option<String> {
+    let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
+    let left_out = levels.drain(..n_too_big.min(levels.len() - 1)).next();
+    let (from, to) = (left_out?, levels.first()?);
+    let [from, to] = [&from, to].map(|level| format!("{}x{}", level.width, level.height));
+    Some(format!(
+        "the {name} texture of {from} pixels is shown at {to}: this adapter takes {max_side} a side"
+    ))
 }
 
 /// One mipmap level; colours in linear light: averaging sRGB bytes would darken fine detail.
@@ -324,6 +335,17 @@ mod tests {
         assert!(150 < relief.get_pixel(1, 1)[0] && 150 < relief.get_pixel(2, 1)[0], "up to the right");
         assert!(relief.get_pixel(7, 1)[0] < 100, "down again where the picture repeats");
         assert_eq!(relief.get_pixel(5, 1).0, [128, 128, 0], "level");
+    }
+
+    #[test]
+    fn a_picture_beyond_the_adapter_s_limit_is_made_smaller_and_that_is_said() {
+        let picture = RgbImage::new(40, 20);
+        let mut levels = mipmaps(&picture, Bytes::Srgb);
+        assert_eq!(shrink(&mut levels, "wall", 40), None);
+        let note = shrink(&mut levels, "wall", 16).unwrap();
+        assert_eq!(note, "the wall texture of 40x20 pixels is shown at 10x5: this adapter takes 16 a side");
+        assert_eq!((levels[0].width, levels.len()), (10, 4));
+        assert!(shrink(&mut levels, "wall", 0).is_some() && levels.len() == 1, "something is left to show");
     }
 
     #[test]

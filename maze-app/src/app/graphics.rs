@@ -1,6 +1,7 @@
 //! The window's GPU side: device, renderer, HUD; rebuilt when the device is lost.
 
 use crate::failure::Failure;
+use crate::files;
 use crate::frame_log::{FrameLog, Stopwatch};
 use crate::input;
 use crate::quality::QualityChoice;
@@ -68,6 +69,9 @@ impl Graphics {
         let quality = quality(&gpu);
         target.set_srgb(&gpu, quality.wants_srgb_target());
         let renderer = Renderer::with_quality(&gpu, target.format(), textures, quality);
+        for note in renderer.notes() {
+            files::note(note);
+        }
         let overlay = Overlay::new(&gpu, target.format());
         let timer = GpuTimer::new(&gpu);
         Ok(Self { window, display, gpu, target, renderer, overlay, timer, n_rebuilds })

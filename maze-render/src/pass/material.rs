@@ -38,6 +38,8 @@ pub(crate) struct Materials {
     pub(crate) groups: [wgpu::BindGroup; 4],
     /// The floor's mean colour, linear.
     pub(crate) floor_mean: [f32; 3],
+    /// What to tell of pictures that were made smaller.
+    pub(crate) notes: Vec<String>,
 }
 
 impl Materials {
@@ -124,6 +126,7 @@ impl Materials {
             group(&floor, FLOOR_REPEATS_PER_UNIT, 0.38, 0.04),
             group(&floor, FLOOR_REPEATS_PER_UNIT, 0.45, 0.04),
         ];
-        Self { groups, floor_mean: floor.0.mean, layout }
+        let notes = [&wall, &floor, &top].into_iter().filter_map(|(colour, _)| colour.note.clone()).collect();
+        Self { groups, floor_mean: floor.0.mean, layout, notes }
     }
 }
