@@ -1,10 +1,9 @@
-//! Vertex buffers: the maze's surfaces with the board's rim, and the ball.
+//! Vertex buffers: the maze's surfaces, with the board's rim.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use maze_core::surface::{Surface, SurfaceMesh, SurfaceVertex};
-use wgpu::util::DeviceExt;
 
 use crate::{Gpu, GpuError};
 
@@ -90,24 +89,6 @@ impl Mesh {
             groups: [wall, top, floor, rim],
             edges,
         }))
-    }
-
-    /// A ball of radius 1 about the origin; a position is its own normal.
-    pub(crate) fn ball(device: &wgpu::Device, n_splits: u32) -> Self {
-        let (points, indices) = icosphere(n_splits);
-        let vertices: Vec<_> =
-            points.into_iter().map(|p| Vertex { position: p, normal: p, uv: [0.0; 2] }).collect();
-        let all = 0..u32::try_from(indices.len()).unwrap_or(0);
-        let buffer = |contents: &[u8], usage| {
-            let label = Some("ball");
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
-        };
-        Self {
-            vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
-            indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
-            groups: [all, 0..0, 0..0, 0..0],
-            edges: 0..0,
-        }
     }
 
     /// Binds the buffers; the vertices go to slot 0.
@@ -226,73 +207,16 @@ fn add_rim(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
     }
 }
 
-/// Points on the unit sphere and triangles, counter-clockwise from outside: an icosahedron, each triangle split in
-/// four `n_splits` times. With 4 splits the silhouette has about 80 sides: off by 0.08 percent of the radius.
-fn icosphere(n_splits: u32) -> (Vec<[f32; 3]>, Vec<u32>) {
-    let golden = 0.5 + 0.5 * 5.0_f32.sqrt();
-    let mut points = Vec::new();
-    for (one, phi) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
-        points.extend([[0.0, one, phi], [one, phi, 0.0], [phi, 0.0, one]].map(unit));
-    }
-    // Twelve points: 3 i + 0, 1, 2 are the i-th signs in the yz, xy and zx planes. Neighbours are the nearest five.
-    let is_near = |a: [f32; 3], b: [f32; 3]| 0.4 < dot(a, b) && dot(a, b) < 0.9;
-    let mut triangles = Vec::new();
-    for a in 0..12_u32 {
-        for b in a + 1..12 {
-            for c in b + 1..12 {
-                let [pa, pb, pc] = [a, b, c].map(|i| points[i as usize]);
-                if is_near(pa, pb) && is_near(pb, pc) && is_near(pc, pa) {
-                    let outward = dot(cross(pa, pb), pc) > 0.0;
-                    triangles.push(if outward { [a, b, c] } else { [a, c, b] });
-                }
-            }
-        }
-    }
-    for _ in 0..n_splits {
-        let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-        let mut middle = |a: u32, b: u32| {
-            *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                let (pa, pb) = (points[a as usize], points[b as usize]);
-                points.push(unit([pa[0] + pb[0], pa[1] + pb[1], pa[2] + pb[2]]));
-                u32::try_from(points.len() - 1).unwrap_or(u32::MAX)
-            })
-        };
-        triangles = triangles
-            .into_iter()
-            .flat_map(|[a, b, c]| {
-                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
-    }
-    (points, triangles.into_flattened())
-}
-
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(p: [f32; 3]) -> [f32; 3] {
-    let length = dot(p, p).sqrt();
-    p.map(|x| x / length)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_sphere_is_closed_round_and_faces_outwards() {
-        let (points, indices) = icosphere(2);
-        assert_eq!((points.len(), indices.len() / 3), (162, 320), "Euler: V - E + F = 2");
-        for triangle in indices.as_chunks::<3>().0 {
-            let [a, b, c] = triangle.map(|i| points[i as usize]);
-            assert!(0.0 < dot(cross(a, b), c));
-        }
+    fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    }
+
+    fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     }
 
     #[test]

@@ -24,8 +24,6 @@ pub(crate) struct Detail {
     /// Side of the sun's map in texels. WebGL2 guarantees 2048: 0.015 units a texel on a 20-unit board, 0.15 on a
     /// 200-unit one.
     pub(crate) sun_map_side: u32,
-    /// How often the ball's triangles are split in four.
-    pub(crate) n_ball_splits: u32,
 }
 
 impl Quality {
@@ -73,12 +71,9 @@ impl Quality {
     }
 
     pub(crate) fn detail(self) -> Detail {
-        let high =
-            Detail { n_samples: 4, anisotropy: 16, sun_looks: 3, sun_map_side: 2048, n_ball_splits: 4 };
+        let high = Detail { n_samples: 4, anisotropy: 16, sun_looks: 3, sun_map_side: 2048 };
         match self {
-            Self::Low => {
-                Detail { n_samples: 1, anisotropy: 1, sun_looks: 1, sun_map_side: 1, n_ball_splits: 3 }
-            }
+            Self::Low => Detail { n_samples: 1, anisotropy: 1, sun_looks: 1, sun_map_side: 1 },
             Self::Medium => Detail { anisotropy: 4, sun_looks: 2, ..high },
             Self::High => high,
         }

@@ -66,5 +66,5 @@ fn uniforms_have_the_same_layout_on_both_sides() {
             n_materials += 1;
         }
     }
-    assert_eq!(n_materials, 2);
+    assert_eq!(n_materials, 3);
 }

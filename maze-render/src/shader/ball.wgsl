@@ -1,24 +1,32 @@
 // A steel ball: polished and satin fields in turn, grooves between them, inlays of brass and blued steel on the six
 // corners where they meet. Every turn shows.
 
-// Set where a pixel has one sample.
-override fades_out: bool = false;
-
 // Set where textures are in sRGB and not decoded.
 override is_plain: bool = false;
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
     @location(0) position: vec3<f32>,
-    @location(1) on_ball: vec3<f32>,
 }
 
+struct Seen {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// A square across the line of sight that covers the ball's outline. The ball itself is met by each pixel's ray: round at
+// any distance, and no more pixels are shaded than it has.
 @vertex
-fn vertex(@location(0) on_ball: vec3<f32>) -> Corner {
-    let q = frame.ball_rotation;
-    let turned = on_ball + 2.0 * cross(q.xyz, cross(q.xyz, on_ball) + q.w * on_ball);
-    let position = frame.ball.xyz + frame.ball.w * turned;
-    return Corner(frame.clip_from_maze * vec4(position, 1.0), position, on_ball);
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    let to_eye = frame.eye.xyz - frame.ball.xyz;
+    let distance = max(length(to_eye), 1.01 * frame.ball.w);
+    let forward = to_eye / distance;
+    let side = normalize(cross(frame.up.xyz + vec3(0.013, 0.007, 0.0), forward));
+    let corner = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
+    let outline = frame.ball.w * distance / sqrt(distance * distance - frame.ball.w * frame.ball.w);
+    let reach = outline + pixel_at(frame.ball.xyz);
+    let position = frame.ball.xyz + reach * (corner.x * side + corner.y * cross(forward, side));
+    return Corner(frame.clip_from_maze * vec4(position, 1.0), position);
 }
 
 // -1 to 1 across an edge, smooth over a pixel.
@@ -38,7 +46,7 @@ fn mirrored_room(p: vec3<f32>, r: vec3<f32>) -> vec3<f32> {
 
     let reach = max(p.z, 0.0) / max(-r.z, 0.02);
     let hit = p.xy + r.xy * min(reach, 6.0);
-    let texel = textureSampleLevel(surface_texture, surface_sampler, surface_uv(hit), 1.0).rgb;
+    let texel = textureSampleLevel(surface_texture, surface_sampler, surface_uv(hit), 3.5).rgb;
     // A texture that is not decoded when looked at: sRGB is close to a power of 2.2.
     let wood = select(texel, pow(texel, vec3(2.2)), is_plain);
     let sunlit = sun_over_walls(vec3(hit, 0.01), vec3(0.0, 0.0, 1.0)) * max(frame.sun.z, 0.0);
@@ -56,12 +64,24 @@ fn mirrored_room(p: vec3<f32>, r: vec3<f32>) -> vec3<f32> {
 }
 
 @fragment
-fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    let b = normalize(in.on_ball);
-    let pixel = max(0.75 * length(fwidth(in.on_ball)), 1e-4);
-    let n = normalize(in.position - frame.ball.xyz);
-    let p = in.position;
-    let v = normalize(frame.eye.xyz - p);
+fn fragment(in: Corner) -> Seen {
+    let ray = normalize(in.position - frame.eye.xyz);
+    let from_ball = frame.eye.xyz - frame.ball.xyz;
+    let nearest = -dot(from_ball, ray);
+    let radius = frame.ball.w;
+    let miss2 = dot(from_ball, from_ball) - nearest * nearest;
+    // How much of the pixel the ball covers; rays that just miss it show its outline.
+    let cover = clamp((radius - sqrt(max(miss2, 0.0))) / pixel_at(frame.ball.xyz) + 0.5, 0.0, 1.0);
+    if cover <= 0.0 {
+        discard;
+    }
+    let p = frame.eye.xyz + ray * (nearest - sqrt(max(radius * radius - miss2, 0.0)));
+    let n = normalize(p - frame.ball.xyz);
+    let v = -ray;
+    let nv = max(dot(n, v), 0.0);
+    let q = vec4(-frame.ball_rotation.xyz, frame.ball_rotation.w);
+    let b = n + 2.0 * cross(q.xyz, cross(q.xyz, n) + q.w * n);
+    let pixel = 0.75 * pixel_at(p) / (radius * max(nv, 0.25));
 
     // Fields: the sign of x y z. Grooves: the three great circles. Inlays: around the six axes' ends.
     let fields = 0.5 + 0.5 * sided(b.x, pixel) * sided(b.y, pixel) * sided(b.z, pixel);
@@ -86,16 +106,11 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     let occlusion = mix(0.35, 1.0, smoothstep(-1.0, 0.5, n.z)) * mix(openness, 1.0, smoothstep(0.0, 0.9, n.z));
     let sunlight = sun_over_walls(p, n);
     let r = reflect(-v, n);
-    let nv = max(dot(n, v), 0.0);
     // Satin scatters: what it shows is the mean of much of the room.
     let scattered = 0.62 * (ambient(n) + SUN_LIGHT * (max(dot(n, frame.sun.xyz), 0.0) * sunlight / 2.8)) * occlusion;
     let polished = mirrored_room(p, r) * mix(0.75, 1.0, occlusion);
     let seen = mix(polished, scattered, 0.9 * satin) * fresnel(f0, nv);
     let sun_glint = min(glint(n, v, roughness, f0) * SUN_LIGHT * sunlight, vec3(4.0));
-    var colour_out = picture(seen + sun_glint);
-    if fades_out {
-        // The outline lies where n turns away; a part of the radius farther in there are nv^2 / 2 of it left.
-        colour_out.a = clamp(0.5 * nv * nv * frame.ball.w / max(pixel_at(p), 1e-5), 0.0, 1.0);
-    }
-    return colour_out;
+    let clip = frame.clip_from_maze * vec4(p, 1.0);
+    return Seen(vec4(picture(seen + sun_glint).rgb, cover), clip.z / clip.w);
 }
