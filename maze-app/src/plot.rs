@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::frame_log::{FrameLog, Rate};
 use image::{ImageFormat, RgbImage};
 use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 use plotters::style::FontStyle;
 use std::io::Cursor;
@@ -39,37 +40,41 @@ fn draw<B: DrawingBackend>(area: DrawingArea<B, Shift>, log: &FrameLog, title: &
     let failed = |error: &dyn std::fmt::Display| Failure::bad_input(format!("drawing the plot: {error}"));
     area.fill(&WHITE).map_err(|error| failed(&error))?;
     let area = area.titled(title, (FONT, 18)).map_err(|error| failed(&error))?;
-    let [upper, lower] = {
-        let (upper, lower) = area.split_vertically(area.dim_in_pixel().1 / 2);
-        [upper, lower]
-    };
+    let (upper, lower) = area.split_vertically(area.dim_in_pixel().1 / 2);
     let rates = log.rates();
-    let graphs: [(_, _, fn(&Rate) -> f64, _); 2] = [
-        (upper, "frames per second", |rate| rate.frames_per_s, RGBColor(30, 110, 60)),
-        (lower, "processor, % of one core", |rate| rate.processor_percent, RGBColor(180, 70, 20)),
-    ];
-    let end_s = rates.last().map_or(1.0, |rate| rate.at_s);
-    for (area, name, value, colour) in graphs {
-        let highest = rates.iter().map(value).fold(1.0, f64::max) * HEADROOM;
-        let mut chart = ChartBuilder::on(&area)
-            .margin(12)
-            .x_label_area_size(34)
-            .y_label_area_size(56)
-            .build_cartesian_2d(0.0..end_s, 0.0..highest)
-            .map_err(|error| failed(&error))?;
-        chart
-            .configure_mesh()
-            .label_style((FONT, 14))
-            .axis_desc_style((FONT, 15))
-            .x_desc("seconds")
-            .y_desc(name)
-            .light_line_style(WHITE)
-            .draw()
-            .map_err(|error| failed(&error))?;
-        let points = rates.iter().map(|rate| (rate.at_s, value(rate)));
-        chart.draw_series(LineSeries::new(points, colour.stroke_width(2))).map_err(|error| failed(&error))?;
-    }
+    let points = |value: fn(&Rate) -> f64| rates.iter().map(|rate| (rate.at_s, value(rate))).collect();
+    graph(&upper, "frames per second", points(|rate| rate.frames_per_s), RGBColor(30, 110, 60))
+        .and_then(|()| {
+            let percent = points(|rate| rate.processor_percent);
+            graph(&lower, "processor, % of one core", percent, RGBColor(180, 70, 20))
+        })
+        .map_err(|error| failed(&error))?;
     area.present().map_err(|error| failed(&error))
+}
+
+fn graph<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    name: &str,
+    points: Vec<(f64, f64)>,
+    colour: RGBColor,
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+    let end_s = points.last().map_or(1.0, |(at_s, _)| *at_s);
+    let highest = points.iter().map(|(_, value)| *value).fold(1.0, f64::max) * HEADROOM;
+    let mut chart = ChartBuilder::on(area)
+        .margin(12)
+        .x_label_area_size(34)
+        .y_label_area_size(56)
+        .build_cartesian_2d(0.0..end_s, 0.0..highest)?;
+    chart
+        .configure_mesh()
+        .label_style((FONT, 14))
+        .axis_desc_style((FONT, 15))
+        .x_desc("seconds")
+        .y_desc(name)
+        .light_line_style(WHITE)
+        .draw()?;
+    chart.draw_series(LineSeries::new(points, colour.stroke_width(2)))?;
+    Ok(())
 }
 
 #[cfg(test)]
