@@ -112,3 +112,27 @@ fn any_size_and_aspect_is_drawn() {
         assert_eq!(format!("{}x{}", picture.width(), picture.height()), size);
     }
 }
+
+#[test]
+fn frames_offscreen_are_logged_and_plotted() {
+    let directory = tempfile::tempdir().unwrap();
+    let [csv, plot] = ["frames.csv", "frames.png"].map(|name| directory.path().join(name));
+    let output = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+        .args(["frames", "--offscreen", "--seconds", "1", "--size", "160x90", "--quality", "low", "--csv"])
+        .arg(&csv)
+        .arg("--plot")
+        .arg(&plot)
+        .env("XDG_RUNTIME_DIR", directory.path())
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("160x90, quality low"), "{text}");
+    for line in ["frame time", "our thread", "all threads", "graphics adapter", "start to first frame"] {
+        assert!(text.contains(line), "{text}");
+    }
+    let csv = std::fs::read_to_string(csv).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert!(5 < rows.len() && rows.iter().all(|row| row.len() == 8), "{csv}");
+    assert!(rows[1..].iter().any(|row| row[7].parse::<f64>().is_ok_and(|ms| 0.0 < ms)), "the adapter's time");
+    assert_eq!(image::image_dimensions(plot).unwrap(), (960, 640));
+}

@@ -101,5 +101,7 @@ fn scene(maze: &Maze, turn: f32) -> Scene {
         start: Marker { position: start, radius: maze.goal_radius as f32 },
         goal: Marker { position: goal, radius: maze.goal_radius as f32 },
         goal_glow: 0.5,
+        lines: vec![],
+        patches: vec![],
     }
 }

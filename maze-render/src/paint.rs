@@ -39,17 +39,22 @@ pub struct Painter {
 }
 
 /// A buffer that is replaced by a larger one when it has to be.
-struct Growing {
+pub(crate) struct Growing {
     usage: wgpu::BufferUsages,
     buffer: Option<wgpu::Buffer>,
 }
 
 impl Growing {
-    fn new(usage: wgpu::BufferUsages) -> Self {
+    pub(crate) fn new(usage: wgpu::BufferUsages) -> Self {
         Self { usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None }
     }
 
-    fn write(&mut self, gpu: &Gpu, bytes: &[u8]) -> &wgpu::Buffer {
+    /// What was written last; none before.
+    pub(crate) fn buffer(&self) -> Option<&wgpu::Buffer> {
+        self.buffer.as_ref()
+    }
+
+    pub(crate) fn write(&mut self, gpu: &Gpu, bytes: &[u8]) -> &wgpu::Buffer {
         let n_bytes = bytes.len() as u64;
         let fitting = self.buffer.take().filter(|buffer| n_bytes <= buffer.size());
         let buffer = fitting.unwrap_or_else(|| {

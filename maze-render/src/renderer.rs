@@ -8,6 +8,7 @@ use crate::occlusion::OcclusionMap;
 use crate::pass::background::Background;
 use crate::pass::ball::Ball;
 use crate::pass::floor_light::{FloorLight, FloorLightMap};
+use crate::pass::lines::Lines;
 use crate::pass::material::Materials;
 use crate::pass::maze::Maze;
 use crate::pass::plain::Plain;
@@ -30,6 +31,7 @@ pub struct Renderer {
     shadow: Shadow,
     maze: Surfaces,
     ball: Ball,
+    lines: Lines,
     board: Board,
     /// Made by [`Renderer::set_maze`]; nothing but the table is drawn before.
     content: Option<Content>,
@@ -135,6 +137,7 @@ impl Renderer {
             background: Background::new(&shared),
             shadow: Shadow::new(&shared),
             ball: Ball::new(&shared, &materials),
+            lines: Lines::new(&shared),
             maze,
             quality,
             materials,
@@ -264,6 +267,7 @@ impl Renderer {
         let size = size.map(|n| n.max(1));
         let frame = Frame::new(scene, &self.board, size);
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
+        self.lines.set(gpu, &scene.lines, &scene.patches);
         let shows_ball = 0.0 < scene.ball.radius;
         if let Some(Content { mesh, floor_light, .. }) = &self.content {
             match (&self.maze, floor_light) {
@@ -320,6 +324,7 @@ impl Renderer {
                 self.ball.draw(&mut pass, &self.materials);
             }
         }
+        self.lines.draw(&mut pass);
     }
 }
 

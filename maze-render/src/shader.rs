@@ -50,10 +50,12 @@ pub(crate) const PLAIN: Shader = shader!(
     ]
 );
 
+pub(crate) const LINES: Shader =
+    shader!(["frame.wgsl", "output.wgsl", "lines.wgsl"], &["vertex", "fragment"]);
 pub(crate) const PAINT: Shader = shader!(["output.wgsl", "paint.wgsl"], &["vertex", "fragment"]);
 
 /// Every shader the renderer compiles.
-pub const SHADERS: [Shader; 7] = [SHADOW, BACKGROUND, MAZE, BALL, FLOOR_LIGHT, PLAIN, PAINT];
+pub const SHADERS: [Shader; 8] = [SHADOW, BACKGROUND, MAZE, BALL, FLOOR_LIGHT, PLAIN, LINES, PAINT];
 
 impl Shader {
     pub(crate) fn module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {

@@ -1,7 +1,9 @@
 //! What the pictures show. Needs a driver: `apt-get install mesa-vulkan-drivers` gives one to any machine.
 
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
-use maze_render::{CAPTURE_FORMAT, Gpu, GpuError, Quality, Renderer, Scene, TextureSet, capture};
+use maze_render::{
+    CAPTURE_FORMAT, Gpu, GpuError, Line, Patch, Quality, Renderer, Scene, TextureSet, capture,
+};
 use nalgebra::{UnitQuaternion, Vector3};
 
 mod support;
@@ -129,7 +131,7 @@ fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
         scene.world_from_maze = UnitQuaternion::from_scaled_axis(Vector3::new(0.2, -0.15, 0.0));
         scene.ball.position = [1.3, -0.7, 0.35];
         let with_ball = drawn(&gpu, quality, &textures, &board, &scene);
-        let mut without = scene;
+        let mut without = scene.clone();
         without.ball.radius = 0.0;
         let without_ball = drawn(&gpu, quality, &textures, &board, &without);
         let changed = |at| pixel(&with_ball, &scene, at) != pixel(&without_ball, &scene, at);
@@ -140,7 +142,7 @@ fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
         assert!(dimmed < 8, "the ball takes a little of the sky, no more: {dimmed}");
         assert!(changed([x + 0.42, y - 0.3, 0.0]), "its shadow falls away from the sun, to the lower right");
 
-        let mut rolled = scene;
+        let mut rolled = scene.clone();
         rolled.ball.rotation = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.2);
         let n_turned = n_different(&with_ball, &drawn(&gpu, quality, &textures, &board, &rolled));
         assert!(30 < n_turned, "a turn of 11 degrees shows: {n_turned} pixels");
@@ -346,4 +348,36 @@ fn a_driver_s_complaint_fails_the_picture() {
     let refused = capture(&gpu, &mut renderer, [16, 16], &Board::empty(2, 2).scene(1.0));
     assert!(matches!(refused, Err(GpuError::Device(_))), "{refused:?}");
     capture(&gpu, &mut renderer, [16, 16], &Board::empty(2, 2).scene(1.0)).expect("told once");
+}
+
+#[test]
+fn lines_and_patches_lie_over_walls_at_their_place_and_width() {
+    let gpu = Gpu::offscreen_software().unwrap();
+    let board = Board::empty(5, 4);
+    let textures = flat_textures(GREY, GREY, GREY);
+    for quality in Quality::ALL {
+        let mut scene = board.scene(ASPECT);
+        scene.ball.radius = 0.0;
+        let without = drawn(&gpu, quality, &textures, &board, &scene);
+        let [hx, hy, _] = board.half_size();
+        // Across the whole board and through its walls.
+        scene.lines =
+            vec![Line { from: [-hx, 0.4, 0.3], to: [hx, 0.4, 0.3], width: 5.0, colour: [0, 255, 0, 255] }];
+        let corners = [[-0.5, -hy, 0.0], [0.5, -hy, 0.0], [0.5, -hy + 0.5, 0.0], [-0.5, -hy + 0.5, 0.0]];
+        scene.patches = vec![Patch { corners, colour: [255, 0, 0, 128] }];
+        let with = drawn(&gpu, quality, &textures, &board, &scene);
+        for x in [-hx + 0.1, 0.0, hx - 0.1] {
+            assert_eq!(pixel(&with, &scene, [x, 0.4, 0.3]), [0, 255, 0], "{quality:?}");
+        }
+        let half_covered = pixel(&with, &scene, [0.0, -hy + 0.25, 0.0]);
+        assert_eq!(strongest(half_covered), 0, "{quality:?}");
+        assert!(20 < half_covered[1], "what lies below is seen through it: {half_covered:?}");
+        // A column of pixels through the line: five of it, and one that it covers in part on either side.
+        let x = with.width() / 2;
+        let changed = (0..with.height()).filter(|&y| {
+            let [r, g, b, _] = with.get_pixel(x, y).0;
+            r < g && b < g && with.get_pixel(x, y) != without.get_pixel(x, y)
+        });
+        assert!((5..=7).contains(&changed.count()), "{quality:?}");
+    }
 }

@@ -33,7 +33,7 @@ impl Idle {
     /// True when a frame of this would only repeat the last one; otherwise takes it for drawn.
     pub(super) fn may_skip(&mut self, now: Instant, scene: &Scene, hud: &Hud<'_>, size: [u32; 2]) -> bool {
         let shown = Shown {
-            scene: *scene,
+            scene: scene.clone(),
             size,
             phase: hud.phase,
             n_ticks: hud.n_ticks,
@@ -55,7 +55,7 @@ impl Idle {
 
     /// What the last frame showed of the maze.
     pub(super) fn scene(&self) -> Option<Scene> {
-        self.shown.as_ref().map(|shown| shown.scene)
+        self.shown.as_ref().map(|shown| shown.scene.clone())
     }
 }
 
@@ -85,6 +85,8 @@ mod tests {
             start: marker,
             goal: marker,
             goal_glow: 0.0,
+            lines: vec![],
+            patches: vec![],
         };
         let begun = Instant::now();
         let frames = (0..600).map(|i| begun + Duration::from_millis(10 * i));

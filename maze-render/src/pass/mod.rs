@@ -3,6 +3,7 @@
 pub(crate) mod background;
 pub(crate) mod ball;
 pub(crate) mod floor_light;
+pub(crate) mod lines;
 pub(crate) mod material;
 pub(crate) mod maze;
 pub(crate) mod plain;
@@ -132,6 +133,8 @@ pub(crate) struct PassPipeline<'a> {
     pub(crate) cull: Option<wgpu::Face>,
     /// False leaves the depth as it is: for what lies behind everything.
     pub(crate) writes_depth: bool,
+    /// Shown whatever is nearer.
+    pub(crate) is_over_all: bool,
     pub(crate) topology: wgpu::PrimitiveTopology,
     pub(crate) blend: Option<wgpu::BlendState>,
     pub(crate) writes: wgpu::ColorWrites,
@@ -150,6 +153,7 @@ impl PassPipeline<'_> {
             vertices: &[],
             cull: None,
             writes_depth: true,
+            is_over_all: false,
             topology: wgpu::PrimitiveTopology::TriangleList,
             blend: None,
             writes: wgpu::ColorWrites::ALL,
@@ -195,7 +199,11 @@ impl Shared<'_> {
             depth_stencil: of.target.is_none().then(|| wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(of.writes_depth),
-                depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                depth_compare: Some(if of.is_over_all {
+                    wgpu::CompareFunction::Always
+                } else {
+                    wgpu::CompareFunction::LessEqual
+                }),
                 stencil: Default::default(),
                 bias: Default::default(),
             }),
