@@ -90,12 +90,6 @@ impl Hud<'_> {
         if let Some(frames) = self.frames {
             area(ui.ctx(), "frames", Align2::RIGHT_TOP, vec2(-MARGIN, 4.5 * MARGIN), |ui| frames.show(ui));
         }
-        if let Some(notice) = self.notice {
-            area(ui.ctx(), "notice", Align2::CENTER_TOP, vec2(0.0, MARGIN), |ui| {
-                let notice = RichText::new(notice).color(GOLD);
-                ui.add(egui::Label::new(notice).wrap_mode(egui::TextWrapMode::Extend));
-            });
-        }
         if self.help {
             self.keys(ui.ctx());
         }
