@@ -469,9 +469,11 @@ impl ApplicationHandler for App {
             return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
         }
         if self.next_frame <= now {
-            // Kept to a fixed rhythm, but never behind: a slow frame is not made up for by a burst.
+            // Kept to a fixed rhythm. A frame that came late is made up for, by one frame at most: timers and a busy
+            // machine are late all the time, and after a pause there must be no burst.
             let frame_time = if self.options.uncapped { Duration::ZERO } else { graphics.frame_time() };
-            self.next_frame = (self.next_frame + frame_time).max(now);
+            let earliest = now.checked_sub(frame_time).unwrap_or(now);
+            self.next_frame = (self.next_frame + frame_time).max(earliest);
             graphics.request_redraw();
         }
         event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));
