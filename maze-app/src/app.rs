@@ -1,25 +1,32 @@
 //! The window: events in, frames out; nothing else.
 
 mod graphics;
-mod view;
+mod idle;
+pub(crate) mod view;
 
 use crate::clock::Clock;
 use crate::command::play::Setup;
+use crate::demo::Demo;
 use crate::failure::Failure;
 use crate::files;
+use crate::frame_log::{FrameLog, Parts, Stopwatch};
 use crate::game::{EngineKind, Game, to_f32};
 use crate::input::{self, Action, TiltControl};
+use crate::quality::QualityChoice;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
-use crate::ui::{Hud, Labels};
+use crate::ui::{FramesPanel, Hud, Labels};
 use graphics::{Drawn, Graphics};
+use idle::Idle;
+use image::ImageFormat;
 use maze_core::{Event, Maze, Phase};
-use maze_render::{Camera, TextureSet};
-use std::path::PathBuf;
+use maze_render::{Camera, Quality, TextureSet};
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use view::View;
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalPosition};
+use winit::dpi::{LogicalSize, PhysicalPosition, PhysicalSize, Size};
 use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
 use winit::keyboard::PhysicalKey;
@@ -49,6 +56,25 @@ pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
     })
 }
 
+/// What `maze-app frames` does differently from `maze-app play`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Options {
+    /// The autopilot plays, round after round.
+    pub(crate) demo: bool,
+    /// As many frames as the window takes.
+    pub(crate) uncapped: bool,
+    /// Of the window (pixels).
+    pub(crate) size: Option<[u32; 2]>,
+    /// How long frames are remembered (s).
+    pub(crate) keep_s: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { demo: false, uncapped: false, size: None, keep_s: 10.0 }
+    }
+}
+
 /// Everything that lives as long as the window.
 pub(crate) struct App {
     game: Game,
@@ -66,23 +92,34 @@ pub(crate) struct App {
     record: Option<PathBuf>,
     is_recorded: bool,
     exit_after: Option<Duration>,
+    quality: QualityChoice,
+    options: Options,
+    /// Plays in the player's place.
+    demo: Option<Demo>,
     graphics: Option<Graphics>,
+    /// Who drew the last frame: adapter, quality, size.
+    drawn_by: Option<(String, Quality, [u32; 2])>,
+    frame_log: FrameLog,
+    shows_frames: bool,
+    idle: Idle,
     cursor: PhysicalPosition<f64>,
     help: bool,
-    /// Why a dropped file was not loaded, and when.
+    /// News of a moment, such as why a dropped file was not loaded, and when.
     notice: Option<(String, Instant)>,
     hidden: bool,
     n_ticks: u64,
     max_tilt_rad: f32,
     opened: Instant,
+    first_frame: Option<Instant>,
     last_frame: Instant,
     next_frame: Instant,
     failure: Option<Failure>,
 }
 
 impl App {
-    pub(crate) fn new(setup: Setup, maze: Maze) -> Result<Self, Failure> {
+    pub(crate) fn new(setup: Setup, options: Options, maze: Maze) -> Result<Self, Failure> {
         let game = Game::new(maze, setup.engine)?;
+        let demo = options.demo.then(|| Demo::new(&game, setup.max_tilt_rad)).transpose()?;
         let now = Instant::now();
         Ok(Self {
             clock: Clock::new(game.tick_s()),
@@ -98,7 +135,14 @@ impl App {
             record: setup.record,
             is_recorded: false,
             exit_after: setup.exit_after,
+            quality: setup.quality,
+            options,
+            demo,
             graphics: None,
+            drawn_by: None,
+            frame_log: FrameLog::new(options.keep_s),
+            shows_frames: false,
+            idle: Idle::default(),
             cursor: PhysicalPosition::default(),
             help: true,
             notice: None,
@@ -106,6 +150,7 @@ impl App {
             n_ticks: 0,
             max_tilt_rad: to_f32(setup.max_tilt_rad),
             opened: now,
+            first_frame: None,
             last_frame: now,
             next_frame: now,
             failure: None,
@@ -113,12 +158,29 @@ impl App {
     }
 
     /// Until the window closes.
-    pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<(), Failure> {
+    pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<Self, Failure> {
         event_loop.run_app(&mut self).map_err(Failure::bad_input)?;
         if !self.is_recorded {
             self.write_recording()?;
         }
-        self.failure.map_or(Ok(()), Err)
+        match self.failure.take() {
+            Some(failure) => Err(failure),
+            None => Ok(self),
+        }
+    }
+
+    /// Adapter, quality and size of the last frame.
+    pub(crate) fn drawn_by(&self) -> Option<(String, Quality, [u32; 2])> {
+        self.drawn_by.clone()
+    }
+
+    /// When the first frame had been handed over.
+    pub(crate) fn first_frame(&self) -> Option<Instant> {
+        self.first_frame
+    }
+
+    pub(crate) fn into_frame_log(self) -> FrameLog {
+        self.frame_log
     }
 
     fn write_recording(&self) -> Result<(), Failure> {
@@ -137,11 +199,13 @@ impl App {
     }
 
     fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
-        let attributes = Window::default_attributes().with_inner_size(WINDOW_SIZE).with_title("Maze");
+        let size = self.options.size.map(|[width, height]| Size::from(PhysicalSize::new(width, height)));
+        let size = size.unwrap_or(WINDOW_SIZE.into());
+        let attributes = Window::default_attributes().with_inner_size(size).with_title("Maze");
         let window = event_loop
             .create_window(attributes)
             .map_err(|error| Failure::bad_input(format!("cannot open a window: {error}")))?;
-        self.graphics = Some(Graphics::new(event_loop, window, &self.textures)?);
+        self.graphics = Some(Graphics::new(event_loop, window, &self.textures, self.quality)?);
         self.load_into_graphics()?;
         self.state_log = self.state_log_path.as_deref().map(StateLog::create).transpose()?;
         Ok(())
@@ -153,6 +217,10 @@ impl App {
             Action::ZoomOut => self.view.zoom_by_notches(-1.0),
             Action::Level => self.control.level(),
             Action::ToggleHelp => self.help = !self.help,
+            Action::ToggleFrames => self.shows_frames = !self.shows_frames,
+            Action::ToggleFullscreen => self.graphics.iter().for_each(Graphics::toggle_fullscreen),
+            Action::NextQuality => self.next_quality()?,
+            Action::Screenshot => self.screenshot(),
             Action::Quit => event_loop.exit(),
             Action::Restart => {
                 self.control.level();
@@ -191,6 +259,7 @@ impl App {
         self.control.level();
         self.view.show_all();
         self.notice = None;
+        self.idle.wake();
     }
 
     /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
@@ -207,6 +276,32 @@ impl App {
         // The time it took to load is not played.
         self.last_frame = Instant::now();
         Ok(())
+    }
+
+    fn notify(&mut self, notice: String) {
+        self.notice = Some((notice, Instant::now()));
+    }
+
+    fn next_quality(&mut self) -> Result<(), Failure> {
+        let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        let quality = graphics.quality().next();
+        graphics.set_quality(quality, &self.textures);
+        self.notify(format!("quality: {}", quality.name()));
+        self.load_into_graphics()
+    }
+
+    /// What is shown, without the HUD, into the working directory. That this may fail is no reason to end the game.
+    fn screenshot(&mut self) {
+        let (Some(graphics), Some(scene)) = (&mut self.graphics, self.idle.scene()) else { return };
+        let saved = graphics.screenshot(&scene).and_then(|picture| {
+            let mut png = Cursor::new(Vec::new());
+            picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
+            files::write_numbered(Path::new(""), "maze", "png", png.get_ref())
+        });
+        self.notify(match saved {
+            Ok(path) => format!("saved {}", path.display()),
+            Err(failure) => failure.to_string(),
+        });
     }
 
     fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) -> Result<(), Failure> {
@@ -228,7 +323,10 @@ impl App {
     fn simulate(&mut self, elapsed: Duration) -> Result<(), Failure> {
         for _ in 0..self.clock.advance(elapsed.as_secs_f64()) {
             self.control.tick(self.game.tick_s());
-            let tilt = self.control.tilt();
+            let tilt = match &mut self.demo {
+                Some(demo) => demo.tilt(&mut self.game)?,
+                None => self.control.tilt(),
+            };
             // The other events are for sound; the screen reads the game's phase.
             let events = self.game.tick(tilt)?;
             if events.iter().any(|event| matches!(event, Event::Finished(_))) {
@@ -257,12 +355,16 @@ impl App {
     }
 
     fn frame(&mut self) -> Result<(), Failure> {
+        let watch = Stopwatch::start();
         let now = Instant::now();
         let elapsed = now - self.last_frame;
         self.last_frame = now;
         let Some(graphics) = &self.graphics else { return Ok(()) };
         let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
+        let (adapter, quality, size) = (graphics.adapter(), graphics.quality(), graphics.size());
         self.simulate(elapsed)?;
+        let simulate = watch.ms();
+        let watch = Stopwatch::start();
         let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
         let hud = Hud {
             phase: self.game.phase(),
@@ -271,6 +373,12 @@ impl App {
             labels: &self.labels,
             help: self.help,
             notice: notice.map(|(text, _)| text.as_str()),
+            frames: self.shows_frames.then_some(FramesPanel {
+                log: &self.frame_log,
+                quality: quality.name(),
+                size,
+                adapter: &adapter,
+            }),
         };
         let held = self.control.is_dragged().then_some(&self.control);
         let pose = self.game.pose(self.clock.alpha(), held);
@@ -278,11 +386,25 @@ impl App {
         let whole = view::with_room_below(whole, hud.covered_part(size_points));
         self.view.update(elapsed, whole, pose.ball_in_world().cast());
         let scene = self.game.scene(&pose, self.view.camera());
+        if self.idle.may_skip(now, &scene, &hud, size) {
+            return Ok(());
+        }
+        let prepare = watch.ms();
+        let number = self.frame_log.next_number();
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
-        if let Drawn::DeviceLost = graphics.draw(&scene, &hud)? {
-            // The old device must be gone before a new one may have the window.
-            self.graphics = self.graphics.take().map(|lost| lost.rebuilt(&self.textures)).transpose()?;
-            self.load_into_graphics()?;
+        match graphics.draw(&scene, &hud, number)? {
+            Drawn::Shown { encode, present } => {
+                self.frame_log.push(Parts { simulate, encode: prepare + encode, present });
+                graphics.tell_times(&mut self.frame_log);
+                self.first_frame.get_or_insert_with(Instant::now);
+                self.drawn_by = Some((adapter, quality, size));
+            }
+            Drawn::Hidden => {}
+            Drawn::DeviceLost => {
+                // The old device must be gone before a new one may have the window.
+                self.graphics = self.graphics.take().map(|lost| lost.rebuilt(&self.textures)).transpose()?;
+                self.load_into_graphics()?;
+            }
         }
         Ok(())
     }
@@ -296,7 +418,10 @@ impl App {
                 self.graphics = None;
                 event_loop.exit();
             }
-            WindowEvent::Resized(size) => graphics.resize(size.into()),
+            WindowEvent::Resized(size) => {
+                graphics.resize(size.into());
+                self.idle.wake();
+            }
             WindowEvent::Occluded(hidden) => {
                 self.hidden = hidden;
                 // The time behind other windows is not played.
@@ -362,8 +487,11 @@ impl ApplicationHandler for App {
             return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
         }
         if self.next_frame <= now {
-            // Kept to a fixed rhythm, but never behind: a slow frame is not made up for by a burst.
-            self.next_frame = (self.next_frame + graphics.frame_time()).max(now);
+            // Kept to a fixed rhythm. A frame that came late is made up for, by one frame at most: timers and a busy
+            // machine are late all the time, and after a pause there must be no burst.
+            let frame_time = if self.options.uncapped { Duration::ZERO } else { graphics.frame_time() };
+            let earliest = now.checked_sub(frame_time).unwrap_or(now);
+            self.next_frame = (self.next_frame + frame_time).max(earliest);
             graphics.request_redraw();
         }
         event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));

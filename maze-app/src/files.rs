@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use maze_render::{TextureSet, decode_bmp};
 use std::fs;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest file that is read: far above any maze (a million faces are 60 MB).
 const MAX_BYTES: u64 = 1 << 28;
@@ -37,19 +37,50 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
     };
     let mut written = Vec::with_capacity(outputs.len());
     for (path, bytes) in outputs {
-        let directory = directory_of(path);
-        let mut file = tempfile::Builder::new();
-        // A temporary file is private by default; the output is an ordinary file.
-        #[cfg(unix)]
-        file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-        let mut file = file.tempfile_in(directory).map_err(|error| failed(path, error))?;
-        file.write_all(bytes).map_err(|error| failed(path, error))?;
-        written.push((path, file));
+        written.push((path, temporary(path, bytes).map_err(|error| failed(path, error))?));
     }
     for (path, file) in written.into_iter().rev() {
         file.persist(path).map_err(|error| failed(path, error.error))?;
     }
     Ok(())
+}
+
+/// Most files that [`write_numbered`] tells apart.
+const MAX_NUMBER: u32 = 9999;
+
+/// Writes `NAME-0001.ENDING` in a directory, or with the next number that is free: no file is ever replaced.
+pub(crate) fn write_numbered(
+    directory: &Path,
+    name: &str,
+    ending: &str,
+    bytes: &[u8],
+) -> Result<PathBuf, Failure> {
+    for number in 1..=MAX_NUMBER {
+        let path = directory.join(format!("{name}-{number:04}.{ending}"));
+        if path.exists() {
+            continue;
+        }
+        let failed =
+            |error: &std::io::Error| Failure::in_file(&path, format!("cannot write: {}", plain(error)));
+        // Somebody else may have taken the name by now.
+        match temporary(&path, bytes).map_err(|error| failed(&error))?.persist_noclobber(&path) {
+            Ok(_) => return Ok(path),
+            Err(error) if error.error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(failed(&error.error)),
+        }
+    }
+    Err(Failure::in_file(directory, format!("{MAX_NUMBER} files {name}-....{ending} are there already")))
+}
+
+/// A file beside `path` that goes away unless it is persisted.
+fn temporary(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
+    let mut file = tempfile::Builder::new();
+    // A temporary file is private by default; the output is an ordinary file.
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    let mut file = file.tempfile_in(directory_of(path))?;
+    file.write_all(bytes)?;
+    Ok(file)
 }
 
 /// Where a file lies.
@@ -76,6 +107,12 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Tells something that is no failure, on stderr.
+pub(crate) fn note(text: &str) {
+    // Where nobody reads it, nothing is lost.
+    let _ = writeln!(std::io::stderr(), "maze-app: {text}");
 }
 
 /// Checks an output's name before the work is done for it.
@@ -130,6 +167,20 @@ mod tests {
         let missing = directory.path().join("no/out.txt");
         let error = write_whole(&missing, b"").unwrap_err().to_string();
         assert!(error.ends_with("out.txt: cannot write: no such file or directory"), "{error}");
+    }
+
+    #[test]
+    fn numbered_files_never_replace_another() {
+        let directory = tempfile::tempdir().unwrap();
+        fs::write(directory.path().join("maze-0002.png"), "old").unwrap();
+        for expected in ["maze-0001.png", "maze-0003.png"] {
+            let path = write_numbered(directory.path(), "maze", "png", b"new").unwrap();
+            assert_eq!(path, directory.path().join(expected));
+        }
+        assert_eq!(fs::read_to_string(directory.path().join("maze-0002.png")).unwrap(), "old");
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 3);
+        let error = write_numbered(&directory.path().join("no"), "maze", "png", b"").unwrap_err().to_string();
+        assert!(error.ends_with("maze-0001.png: cannot write: no such file or directory"), "{error}");
     }
 
     #[test]

@@ -241,6 +241,8 @@ impl Game {
             start: marker(self.maze.start),
             goal: marker(self.maze.goal),
             goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
+            lines: Vec::new(),
+            patches: Vec::new(),
         }
     }
 

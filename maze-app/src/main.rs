@@ -4,15 +4,19 @@
 mod app;
 mod clock;
 mod command;
+mod demo;
 mod failure;
 mod files;
+mod frame_log;
 mod game;
 mod input;
 mod levels;
 mod maze_file;
 mod measures;
 mod picture;
+mod plot;
 mod progress;
+mod quality;
 mod recipe;
 mod sidecar;
 mod source;
@@ -23,6 +27,7 @@ use clap::{Parser, Subcommand};
 use failure::Failure;
 use std::io::Write;
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Tilt the maze, roll the ball, find the way.
 ///
@@ -58,9 +63,12 @@ enum Command {
     Replay(command::replay::Arguments),
     /// Draw one picture of a maze, without a window.
     Render(command::render::Arguments),
+    /// Measure frames while the autopilot plays.
+    Frames(command::frames::Arguments),
 }
 
 fn main() -> ExitCode {
+    let started = Instant::now();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return usage(&error),
@@ -72,6 +80,7 @@ fn main() -> ExitCode {
         Command::Autopilot(arguments) => command::autopilot::run(&arguments),
         Command::Replay(arguments) => command::replay::run(&arguments),
         Command::Render(arguments) => command::render::run(&arguments),
+        Command::Frames(arguments) => command::frames::run(&arguments, started),
     };
     finish(result)
 }

@@ -128,6 +128,11 @@ impl Source {
         Self { read: self.read.clone(), kind: Kind::File(path) }
     }
 
+    /// A file, or else the random maze of a recipe.
+    pub(crate) fn file_or_random(read: &ReadArguments, file: Option<PathBuf>, recipe: Recipe) -> Self {
+        Self { read: read.clone(), kind: file.map_or(Kind::Random(recipe), Kind::File) }
+    }
+
     /// The words, one a line, that give this maze again on the command line.
     pub(crate) fn words(&self) -> Result<String, Failure> {
         let mut words = self.read.words();
@@ -233,8 +238,9 @@ impl Source {
 }
 
 /// What comes after a maze.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Onwards {
+    #[default]
     Nothing,
     NewMaze,
     NextLevel,

@@ -70,13 +70,22 @@ fn expect_golden(name: &str, arguments: &[&str]) {
 }
 
 #[test]
-fn the_default_maze_looks_as_it_should() {
-    expect_golden("default", &[]);
+fn the_default_maze_looks_as_it_should_at_every_quality() {
+    for quality in ["low", "medium", "high"] {
+        expect_golden(quality, &["--quality", quality]);
+    }
 }
 
 #[test]
 fn a_tilted_maze_with_the_ball_on_its_way_looks_as_it_should() {
     expect_golden("tilted", &["--tilt", "12,-7", "--ticks", "25"]);
+    expect_golden("tilted-low", &["--tilt", "12,-7", "--ticks", "25", "--quality", "low"]);
+}
+
+#[test]
+fn zoomed_in_the_ball_and_what_is_around_it_look_as_they_should() {
+    expect_golden("zoomed", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6"]);
+    expect_golden("zoomed-low", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6", "--quality", "low"]);
 }
 
 #[test]
@@ -92,6 +101,8 @@ fn the_tolerance_notices_a_degree_of_tilt_and_a_ball_that_has_moved() {
     let still = decoded(&render(&["--tilt", "12,-7", "--ticks", "25"]));
     let (moved, _) = difference(&still, &decoded(&render(&["--tilt", "12,-7", "--ticks", "28"])));
     assert!(MAX_DIFFERENT_PART < moved, "{moved}");
+    let (other_quality, _) = difference(&picture, &decoded(&render(&["--quality", "medium"])));
+    assert!(MAX_DIFFERENT_PART < other_quality, "{other_quality}");
 }
 
 #[test]
@@ -100,4 +111,28 @@ fn any_size_and_aspect_is_drawn() {
         let picture = decoded(&render_sized(size, &[]));
         assert_eq!(format!("{}x{}", picture.width(), picture.height()), size);
     }
+}
+
+#[test]
+fn frames_offscreen_are_logged_and_plotted() {
+    let directory = tempfile::tempdir().unwrap();
+    let [csv, plot] = ["frames.csv", "frames.png"].map(|name| directory.path().join(name));
+    let output = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+        .args(["frames", "--offscreen", "--seconds", "1", "--size", "160x90", "--quality", "low", "--csv"])
+        .arg(&csv)
+        .arg("--plot")
+        .arg(&plot)
+        .env("XDG_RUNTIME_DIR", directory.path())
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("160x90, quality low"), "{text}");
+    for line in ["frame time", "our thread", "all threads", "graphics adapter", "start to first frame"] {
+        assert!(text.contains(line), "{text}");
+    }
+    let csv = std::fs::read_to_string(csv).unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert!(5 < rows.len() && rows.iter().all(|row| row.len() == 8), "{csv}");
+    assert!(rows[1..].iter().any(|row| row[7].parse::<f64>().is_ok_and(|ms| 0.0 < ms)), "the adapter's time");
+    assert_eq!(image::image_dimensions(plot).unwrap(), (960, 640));
 }

@@ -74,23 +74,16 @@ fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A screen of its own with the game on it.
-struct Session {
-    game: Killed,
-    _window_manager: Killed,
-    _screen: Killed,
+/// A screen of its own with a window manager.
+struct Screen {
     display: String,
-    log: PathBuf,
-    /// Number of states that had been logged when the last input was sent.
-    n_before_input: usize,
-    _directory: tempfile::TempDir,
-    window: String,
+    _window_manager: Killed,
+    _server: Killed,
 }
 
-impl Session {
-    fn open(arguments: &[&str]) -> Self {
-        let directory = tempfile::tempdir().unwrap();
-        let mut screen = start(
+impl Screen {
+    fn start() -> Self {
+        let mut server = start(
             Command::new("Xvfb")
                 .args(["-displayfd", "1", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
                 .stdout(Stdio::piped())
@@ -98,36 +91,48 @@ impl Session {
         );
         // Xvfb picks a free display and prints its number when it is ready.
         let mut number = String::new();
-        BufReader::new(screen.0.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        BufReader::new(server.0.stdout.take().unwrap()).read_line(&mut number).unwrap();
         let display = format!(":{}", number.trim());
         let window_manager = start(
             Command::new("openbox").env("DISPLAY", &display).stdout(Stdio::null()).stderr(Stdio::null()),
         );
         // A window that opens while the manager starts is never shown.
         until("the window manager", || output_of("wmctrl", &display, &["-l"]));
+        Self { display, _window_manager: window_manager, _server: server }
+    }
+}
+
+/// The game on a screen of its own.
+struct Session {
+    game: Killed,
+    screen: Screen,
+    log: PathBuf,
+    /// Number of states that had been logged when the last input was sent.
+    n_before_input: usize,
+    /// Where the game works.
+    directory: tempfile::TempDir,
+    window: String,
+}
+
+impl Session {
+    fn open(arguments: &[&str]) -> Self {
+        let directory = tempfile::tempdir().unwrap();
+        let screen = Screen::start();
         let log = directory.path().join("state.jsonl");
         let game = start(
             Command::new(env!("CARGO_BIN_EXE_maze-app"))
                 .args(["play", "--seed", "5", "--state-log"])
                 .arg(&log)
                 .args(arguments)
-                .env("DISPLAY", &display)
+                .current_dir(directory.path())
+                .env("DISPLAY", &screen.display)
                 .env_remove("WAYLAND_DISPLAY")
                 .env("XDG_RUNTIME_DIR", directory.path()),
         );
-        let mut session = Self {
-            game,
-            _window_manager: window_manager,
-            _screen: screen,
-            display,
-            log,
-            n_before_input: 0,
-            _directory: directory,
-            window: String::new(),
-        };
+        let mut session = Self { game, screen, log, n_before_input: 0, directory, window: String::new() };
         session.wait_for("the first ticks", |state| 3 <= state.tick);
         session.window = until("the window to show", || {
-            output_of("xdotool", &session.display, &["search", "--onlyvisible", "--name", "^Maze"])
+            output_of("xdotool", &session.screen.display, &["search", "--onlyvisible", "--name", "^Maze"])
         });
         let window = session.window.clone();
         session.xdotool(&["windowfocus", &window]);
@@ -136,7 +141,10 @@ impl Session {
 
     fn tool(&mut self, program: &str, arguments: &[&str]) {
         self.n_before_input = self.states().len();
-        assert!(output_of(program, &self.display, arguments).is_some(), "{program} {arguments:?} failed");
+        assert!(
+            output_of(program, &self.screen.display, arguments).is_some(),
+            "{program} {arguments:?} failed"
+        );
     }
 
     fn xdotool(&mut self, arguments: &[&str]) {
@@ -257,7 +265,8 @@ fn the_goal_stops_the_clock_r_starts_again_and_keys_go_on_to_other_mazes() {
     {
         session.xdotool(&["key", key]);
         until(title, || {
-            let windows = Command::new("wmctrl").arg("-l").env("DISPLAY", &session.display).output().unwrap();
+            let windows =
+                Command::new("wmctrl").arg("-l").env("DISPLAY", &session.screen.display).output().unwrap();
             String::from_utf8_lossy(&windows.stdout).contains(title).then_some(())
         });
         session.expect_alive(title);
@@ -310,6 +319,52 @@ fn tiny_minimised_and_restored_windows_stay_alive() {
     session.expect_alive("the restored window");
     session.tool("wmctrl", &["-c", "Maze"]);
     assert!(session.exit_status().success());
+}
+
+#[test]
+fn keys_change_the_quality_show_frame_times_fill_the_screen_and_save_pictures() {
+    let mut session = Session::open(&MAZE);
+    for key in ["F3", "q", "q", "q", "F3", "F11"] {
+        session.xdotool(&["key", key]);
+        session.expect_alive(key);
+    }
+    for (number, [width, height]) in [("0001", [1400, 900]), ("0002", [1280, 720])] {
+        until("the window's size", || {
+            let line = output_of("wmctrl", &session.screen.display, &["-lG"])?;
+            let words: Vec<&str> = line.split_whitespace().collect();
+            (words.get(4..6)? == [width.to_string(), height.to_string()]).then_some(())
+        });
+        session.expect_alive("a window of another size");
+        session.xdotool(&["key", "F12"]);
+        let path = session.directory.path().join(format!("maze-{number}.png"));
+        let size = until("a picture", || image::image_dimensions(&path).ok());
+        assert_eq!(size, (width, height));
+        session.xdotool(&["key", "F11"]);
+    }
+    assert!(!session.directory.path().join("maze-0003.png").exists());
+    session.xdotool(&["key", "Escape"]);
+    assert!(session.exit_status().success());
+}
+
+#[test]
+fn frames_are_measured_in_a_window() {
+    let directory = tempfile::tempdir().unwrap();
+    let screen = Screen::start();
+    let [csv, plot] = ["frames.csv", "frames.svg"].map(|name| directory.path().join(name));
+    let output = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+        .args(["frames", "--seconds", "2", "--size", "320x180", "--csv"])
+        .arg(&csv)
+        .arg("--plot")
+        .arg(&plot)
+        .env("DISPLAY", &screen.display)
+        .env_remove("WAYLAND_DISPLAY")
+        .env("XDG_RUNTIME_DIR", directory.path())
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("320x180, quality low"), "{text}");
+    assert!(10 < std::fs::read_to_string(csv).unwrap().lines().count());
+    assert!(std::fs::read_to_string(plot).unwrap().starts_with("<svg"));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use maze_render::{CAPTURE_FORMAT, Camera, Detail, Gpu, Renderer, TextureSet, capture, decode_bmp};
+use maze_render::{CAPTURE_FORMAT, Camera, Gpu, Quality, Renderer, TextureSet, capture, decode_bmp};
 use nalgebra::{UnitQuaternion, Vector3};
 
 #[path = "../tests/support/mod.rs"]
@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gpu = Gpu::offscreen()?;
     println!("{}", gpu.describe());
     let textures = textures()?;
-    let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
+    let mut renderer = Renderer::with_quality(&gpu, CAPTURE_FORMAT, &textures, Quality::High);
     let mut save = |name: &str, board: &Board, size: [u32; 2], tilt: [f32; 2], zoom: Option<f32>| {
         renderer.set_maze(&gpu, &board.mesh())?;
         let mut scene = board.scene(size[0] as f32 / size[1] as f32);

@@ -160,6 +160,7 @@ impl Gpu {
         let (device, queue) = adapter
             .request_device(&wgpu::DeviceDescriptor {
                 label: Some("maze"),
+                required_features: adapter.features() & crate::timer::FEATURES,
                 required_limits,
                 ..Default::default()
             })
@@ -253,6 +254,8 @@ type MakeSurface = Box<dyn Fn(&wgpu::Instance) -> Result<wgpu::Surface<'static>,
 pub struct WindowTarget {
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
+    /// Formats that the window takes.
+    offered: Vec<wgpu::TextureFormat>,
     make_surface: MakeSurface,
     /// False while the window has no area: nothing may be configured or drawn.
     has_area: bool,
@@ -302,10 +305,8 @@ impl WindowTarget {
         make_surface: MakeSurface,
         size: [u32; 2],
     ) -> Result<Self, GpuError> {
-        let offered = surface.get_capabilities(&gpu.adapter);
-        let format = offered.formats.iter().copied().find(wgpu::TextureFormat::is_srgb);
-        let plain = || offered.formats.iter().copied().find(is_plain_8_bit);
-        let format = format.or_else(plain).or_else(|| offered.formats.first().copied()).ok_or_else(|| {
+        let offered = surface.get_capabilities(&gpu.adapter).formats;
+        let format = best_format(&offered, true).ok_or_else(|| {
             GpuError::Surface(format!("{} cannot draw to this window", gpu.adapter_info.name))
         })?;
         let mut config = surface
@@ -314,7 +315,7 @@ impl WindowTarget {
         config.format = format;
         config.present_mode = wgpu::PresentMode::Fifo; // The one mode that is offered everywhere.
         let mut target =
-            Self { surface, config, make_surface, has_area: false, suboptimal: Suboptimal::NotSeen };
+            Self { surface, config, offered, make_surface, has_area: false, suboptimal: Suboptimal::NotSeen };
         target.resize(gpu, size);
         match gpu.take_error() {
             Some(error) => Err(error),
@@ -330,6 +331,18 @@ impl WindowTarget {
             (self.config.width, self.config.height) = (width, height);
             self.suboptimal = Suboptimal::NotSeen;
             self.configure(gpu);
+        }
+    }
+
+    /// Whether the window turns light into sRGB itself, as far as it can, see [`crate::Quality::wants_srgb_target`].
+    /// Afterwards [`WindowTarget::format`] may be another one.
+    pub fn set_srgb(&mut self, gpu: &Gpu, srgb: bool) {
+        let format = best_format(&self.offered, srgb).unwrap_or(self.config.format);
+        if format != self.config.format {
+            self.config.format = format;
+            if self.has_area {
+                self.configure(gpu);
+            }
         }
     }
 
@@ -393,6 +406,14 @@ impl WindowTarget {
     }
 }
 
+/// The best of the formats that a window offers: sRGB if wanted, then a plain one, then any.
+fn best_format(offered: &[wgpu::TextureFormat], srgb: bool) -> Option<wgpu::TextureFormat> {
+    let find = |is_good: fn(&wgpu::TextureFormat) -> bool| offered.iter().copied().find(is_good);
+    let (with, without) = (find(wgpu::TextureFormat::is_srgb), find(is_plain_8_bit));
+    let best = if srgb { with.or(without) } else { without.or(with) };
+    best.or_else(|| offered.first().copied())
+}
+
 fn is_plain_8_bit(format: &wgpu::TextureFormat) -> bool {
     matches!(format, wgpu::TextureFormat::Rgba8Unorm | wgpu::TextureFormat::Bgra8Unorm)
 }
@@ -412,6 +433,17 @@ mod tests {
         state = Suboptimal::NotSeen; // As `resize` does.
         state.see();
         assert!(state.answer());
+    }
+
+    #[test]
+    fn a_window_gets_the_format_that_a_quality_wants_or_the_next_best() {
+        use wgpu::TextureFormat::{Bgra8Unorm, Bgra8UnormSrgb, Rgba8Unorm, Rgba16Float};
+        let all = [Rgba16Float, Bgra8UnormSrgb, Bgra8Unorm];
+        assert_eq!(best_format(&all, true), Some(Bgra8UnormSrgb));
+        assert_eq!(best_format(&all, false), Some(Bgra8Unorm));
+        assert_eq!(best_format(&[Rgba16Float, Rgba8Unorm], true), Some(Rgba8Unorm));
+        assert_eq!(best_format(&[Rgba16Float], false), Some(Rgba16Float));
+        assert_eq!(best_format(&[], true), None);
     }
 
     #[test]

@@ -30,22 +30,26 @@
 
 mod camera;
 mod capture;
-mod detail;
 mod gpu;
 mod light;
 mod mesh;
 mod occlusion;
+mod paint;
 pub mod pass;
+mod quality;
 mod renderer;
 mod scene;
 mod shader;
 mod texture;
+mod timer;
 
 pub use camera::{Camera, FIELD_OF_VIEW_RAD, PITCH_RAD};
 pub use capture::{CAPTURE_FORMAT, capture};
-pub use detail::Detail;
 pub use gpu::{Acquired, Gpu, GpuError, WindowTarget};
+pub use paint::{PaintBatch, PaintVertex, Painter};
+pub use quality::Quality;
 pub use renderer::Renderer;
-pub use scene::{BallView, Marker, Scene};
+pub use scene::{BallView, Line, Marker, Patch, Scene};
 pub use shader::{SHADERS, Shader};
 pub use texture::{TextureError, TextureSet, decode_bmp};
+pub use timer::GpuTimer;

@@ -1,10 +1,9 @@
-//! Vertex buffers: the maze's surfaces with the board's rim, and the ball.
+//! Vertex buffers: the maze's surfaces, with the board's rim.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use maze_core::surface::{Surface, SurfaceMesh};
-use wgpu::util::DeviceExt;
+use maze_core::surface::{Surface, SurfaceMesh, SurfaceVertex};
 
 use crate::{Gpu, GpuError};
 
@@ -37,19 +36,27 @@ pub(crate) struct Mesh {
     pub(crate) indices: wgpu::Buffer,
     /// What to draw with which material: wall, top, floor, rim.
     pub(crate) groups: [Range<u32>; 4],
+    /// Strips along the tops' edges, see `vertex_edge` in `shader/plain.wgsl`; none unless asked for.
+    pub(crate) edges: Range<u32>,
 }
 
 impl Mesh {
     /// The maze's surfaces, and a rim below every open edge on the floor. `None` for a maze without triangles: a buffer
     /// without bytes cannot be bound.
-    pub(crate) fn of_maze(gpu: &Gpu, mesh: &SurfaceMesh) -> Result<Option<Self>, GpuError> {
+    pub(crate) fn of_maze(gpu: &Gpu, mesh: &SurfaceMesh, with_edges: bool) -> Result<Option<Self>, GpuError> {
         let max_bytes = gpu.device.limits().max_buffer_size;
         let (n_vertices, n_indices) = (mesh.vertices.len(), mesh.indices.iter().map(Vec::len).sum());
         // Once before looking at any triangle, so that this bounds the work too, and once with the rim.
         check_size(n_vertices, n_indices, max_bytes)?;
         check_indices(mesh)?;
-        let rim_edges = open_edges(mesh);
-        let (n_vertices, n_indices) = (n_vertices + 4 * rim_edges.len(), n_indices + 6 * rim_edges.len());
+        let rim_edges = floor_edges(mesh);
+        let top_edges = if with_edges {
+            open_edges(mesh, mesh.indices_of(Surface::Top).iter(), |_| true)
+        } else {
+            Vec::new()
+        };
+        let n_edges = rim_edges.len() + top_edges.len();
+        let (n_vertices, n_indices) = (n_vertices + 4 * n_edges, n_indices + 6 * n_edges);
         check_size(n_vertices, n_indices, max_bytes)?;
         if n_indices == 0 {
             return Ok(None);
@@ -72,30 +79,16 @@ impl Mesh {
         });
         add_rim(&rim_edges, &mut vertices, &mut indices);
         let rim = group_up_to(indices.len());
+        add_edge_strips(&top_edges, &mut vertices, &mut indices);
+        let edges = group_up_to(indices.len());
         let [wall, top, floor] = surfaces;
         let buffer = |contents: &[u8], usage| maze_buffer(gpu, contents, usage);
         Ok(Some(Self {
             vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX)?,
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX)?,
             groups: [wall, top, floor, rim],
+            edges,
         }))
-    }
-
-    /// A ball of radius 1 about the origin; a position is its own normal.
-    pub(crate) fn ball(device: &wgpu::Device) -> Self {
-        let (points, indices) = icosphere(4);
-        let vertices: Vec<_> =
-            points.into_iter().map(|p| Vertex { position: p, normal: p, uv: [0.0; 2] }).collect();
-        let all = 0..u32::try_from(indices.len()).unwrap_or(0);
-        let buffer = |contents: &[u8], usage| {
-            let label = Some("ball");
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label, contents, usage })
-        };
-        Self {
-            vertices: buffer(bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
-            indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
-            groups: [all, 0..0, 0..0, 0..0],
-        }
     }
 
     /// Binds the buffers; the vertices go to slot 0.
@@ -144,37 +137,66 @@ fn maze_buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> Result<
     Ok(buffer)
 }
 
-/// Every edge at floor height that no second triangle shares: around the board and around holes. Edges are matched by
-/// position, so it does not matter which surface brings them; one that is split differently on its two sides only
-/// grows a rim nobody sees, below the floor.
-fn open_edges(mesh: &SurfaceMesh) -> Vec<[[f32; 3]; 2]> {
+/// An edge of a triangle, in its sense.
+type Edge = [SurfaceVertex; 2];
+
+/// Every edge at floor height that no second triangle shares: around the board and around holes. It does not matter
+/// which surface brings them; one that is split differently on its two sides only grows a rim nobody sees, below the
+/// floor.
+fn floor_edges(mesh: &SurfaceMesh) -> Vec<Edge> {
+    let is_at_floor = |v: &SurfaceVertex| v.position[2].abs() < FLOOR_TOLERANCE;
+    open_edges(mesh, mesh.indices.iter().flatten(), |edge| edge.iter().all(is_at_floor))
+}
+
+/// Every wanted edge of these triangles that no second one of them shares, matched by position.
+fn open_edges<'a>(
+    mesh: &SurfaceMesh,
+    indices: impl Iterator<Item = &'a u32>,
+    is_wanted: impl Fn(&Edge) -> bool,
+) -> Vec<Edge> {
     type Place = [u32; 3];
-    let place = |p: [f32; 3]| -> Place { p.map(|x| (x + 0.0).to_bits()) };
-    let mut open: BTreeMap<[Place; 2], [[f32; 3]; 2]> = BTreeMap::new();
-    for triangle in mesh.indices.iter().flat_map(|group| group.as_chunks::<3>().0) {
-        let corners = triangle.map(|i| mesh.vertices[i as usize].position);
-        for (a, b) in [(corners[0], corners[1]), (corners[1], corners[2]), (corners[2], corners[0])] {
-            if a[2].abs() < FLOOR_TOLERANCE
-                && b[2].abs() < FLOOR_TOLERANCE
-                && open.remove(&[place(b), place(a)]).is_none()
-            {
-                open.insert([place(a), place(b)], [a, b]);
+    let place = |v: &SurfaceVertex| -> Place { v.position.map(|x| (x + 0.0).to_bits()) };
+    let mut open: BTreeMap<[Place; 2], Edge> = BTreeMap::new();
+    let mut corners = indices.map(|&i| mesh.vertices[i as usize]);
+    while let (Some(a), Some(b), Some(c)) = (corners.next(), corners.next(), corners.next()) {
+        for edge in [[a, b], [b, c], [c, a]].into_iter().filter(&is_wanted) {
+            let [from, to] = [place(&edge[0]), place(&edge[1])];
+            if open.remove(&[to, from]).is_none() {
+                open.insert([from, to], edge);
             }
         }
     }
     open.into_values().collect()
 }
 
-/// Hangs a plank's edge below each of `edges`: four vertices and six indices, or none where an edge has no length.
-fn add_rim(edges: &[[[f32; 3]; 2]], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
-    for &[a, b] in edges {
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let length = along[0].hypot(along[1]);
+/// Lays a strip along each of `edges` of tops: four vertices and six indices, or none where an edge has no length. Both
+/// its sides lie on the edge; the shader moves one outwards by a pixel.
+fn add_edge_strips(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
+    for [a, b] in edges {
+        let Some(out) = outwards(a, b) else { continue };
         let Ok(first) = u32::try_from(vertices.len()) else { return };
-        if length <= 0.0 {
-            continue;
+        for (corner, side) in [(a, 0.0), (b, 0.0), (b, 1.0), (a, 1.0)] {
+            let normal = [out[0], out[1], side];
+            vertices.push(Vertex { position: corner.position, normal, uv: corner.uv });
         }
-        let normal = [along[1] / length, -along[0] / length, 0.0];
+        indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
+    }
+}
+
+/// Unit vector in the plane, to the right of the way from a to b: out of a triangle seen from above.
+fn outwards(a: &SurfaceVertex, b: &SurfaceVertex) -> Option<[f32; 2]> {
+    let along = [b.position[0] - a.position[0], b.position[1] - a.position[1]];
+    let length = along[0].hypot(along[1]);
+    (0.0 < length).then(|| [along[1] / length, -along[0] / length])
+}
+
+/// Hangs a plank's edge below each of `edges`: four vertices and six indices, or none where an edge has no length.
+fn add_rim(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
+    for [a, b] in edges {
+        let Some([x, y]) = outwards(a, b) else { continue };
+        let Ok(first) = u32::try_from(vertices.len()) else { return };
+        let normal = [x, y, 0.0];
+        let (a, b) = (a.position, b.position);
         // Wood grain runs along the plank: the floor's texture has it along its first axis.
         let run = |p: [f32; 3]| if normal[0].abs() < normal[1].abs() { p[0] } else { p[1] };
         for (corner, depth) in [(b, 0.0), (a, 0.0), (a, RIM_DEPTH), (b, RIM_DEPTH)] {
@@ -185,74 +207,16 @@ fn add_rim(edges: &[[[f32; 3]; 2]], vertices: &mut Vec<Vertex>, indices: &mut Ve
     }
 }
 
-/// Points on the unit sphere and triangles, counter-clockwise from outside: an icosahedron, each triangle split in
-/// four `n_splits` times. With 4 splits the silhouette has about 80 sides: off by 0.08 percent of the radius.
-fn icosphere(n_splits: u32) -> (Vec<[f32; 3]>, Vec<u32>) {
-    let golden = 0.5 + 0.5 * 5.0_f32.sqrt();
-    let mut points = Vec::new();
-    for (one, phi) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
-        points.extend([[0.0, one, phi], [one, phi, 0.0], [phi, 0.0, one]].map(unit));
-    }
-    // Twelve points: 3 i + 0, 1, 2 are the i-th signs in the yz, xy and zx planes. Neighbours are the nearest five.
-    let is_near = |a: [f32; 3], b: [f32; 3]| 0.4 < dot(a, b) && dot(a, b) < 0.9;
-    let mut triangles = Vec::new();
-    for a in 0..12_u32 {
-        for b in a + 1..12 {
-            for c in b + 1..12 {
-                let [pa, pb, pc] = [a, b, c].map(|i| points[i as usize]);
-                if is_near(pa, pb) && is_near(pb, pc) && is_near(pc, pa) {
-                    let outward = dot(cross(pa, pb), pc) > 0.0;
-                    triangles.push(if outward { [a, b, c] } else { [a, c, b] });
-                }
-            }
-        }
-    }
-    for _ in 0..n_splits {
-        let mut middles: BTreeMap<[u32; 2], u32> = BTreeMap::new();
-        let mut middle = |a: u32, b: u32| {
-            *middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                let (pa, pb) = (points[a as usize], points[b as usize]);
-                points.push(unit([pa[0] + pb[0], pa[1] + pb[1], pa[2] + pb[2]]));
-                u32::try_from(points.len() - 1).unwrap_or(u32::MAX)
-            })
-        };
-        triangles = triangles
-            .into_iter()
-            .flat_map(|[a, b, c]| {
-                let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
-                [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
-            })
-            .collect();
-    }
-    (points, triangles.into_flattened())
-}
-
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(p: [f32; 3]) -> [f32; 3] {
-    let length = dot(p, p).sqrt();
-    p.map(|x| x / length)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use maze_core::surface::SurfaceVertex;
 
-    #[test]
-    fn the_sphere_is_closed_round_and_faces_outwards() {
-        let (points, indices) = icosphere(2);
-        assert_eq!((points.len(), indices.len() / 3), (162, 320), "Euler: V - E + F = 2");
-        for triangle in indices.as_chunks::<3>().0 {
-            let [a, b, c] = triangle.map(|i| points[i as usize]);
-            assert!(0.0 < dot(cross(a, b), c));
-        }
+    fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    }
+
+    fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     }
 
     #[test]
@@ -282,7 +246,7 @@ mod tests {
             indices: [vec![], vec![], vec![0, 1, 2, 0, 2, 3]],
         };
         let (mut vertices, mut indices) = (vec![], vec![]);
-        add_rim(&open_edges(&mesh), &mut vertices, &mut indices);
+        add_rim(&floor_edges(&mesh), &mut vertices, &mut indices);
         assert_eq!(indices.len(), 4 * 6, "four sides, not the diagonal");
         for triangle in indices.as_chunks::<3>().0 {
             let [a, b, c] = triangle.map(|i| vertices[i as usize]);

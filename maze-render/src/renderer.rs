@@ -7,15 +7,16 @@ use crate::mesh::Mesh;
 use crate::occlusion::OcclusionMap;
 use crate::pass::background::Background;
 use crate::pass::ball::Ball;
+use crate::pass::floor_light::{FloorLight, FloorLightMap};
+use crate::pass::lines::Lines;
+use crate::pass::material::Materials;
 use crate::pass::maze::Maze;
+use crate::pass::plain::Plain;
 use crate::pass::shadow::Shadow;
 use crate::pass::{self, Board, DEPTH_FORMAT, Frame, Shared};
 use crate::scene::Scene;
 use crate::texture::TextureSet;
-use crate::{Detail, Gpu, GpuError};
-
-/// Samples a pixel: smooth edges. The one count, beside 1, that every adapter offers.
-const N_SAMPLES: u32 = 4;
+use crate::{Gpu, GpuError, Quality};
 
 /// Draws scenes of one maze at a time into targets of one format.
 pub struct Renderer {
@@ -24,19 +25,32 @@ pub struct Renderer {
     frame_buffer: wgpu::Buffer,
     frame_group: wgpu::BindGroup,
     light_layout: wgpu::BindGroupLayout,
+    quality: Quality,
+    materials: Materials,
     background: Background,
     shadow: Shadow,
-    maze: Maze,
+    maze: Surfaces,
     ball: Ball,
+    lines: Lines,
     board: Board,
     /// Made by [`Renderer::set_maze`]; nothing but the table is drawn before.
     content: Option<Content>,
     targets: Option<Targets>,
 }
 
+/// How the maze is drawn.
+enum Surfaces {
+    /// Lit at every pixel.
+    Lit(Maze),
+    /// Lit at corners and by a map of the floor.
+    Plain(Plain, FloorLight),
+}
+
 struct Content {
     mesh: Mesh,
     light_group: wgpu::BindGroup,
+    /// None where surfaces are lit at every pixel.
+    floor_light: Option<FloorLightMap>,
 }
 
 /// What is drawn into before it is resolved into the caller's view.
@@ -48,22 +62,23 @@ struct Targets {
 }
 
 impl Renderer {
-    /// Builds all pipelines and uploads the textures, once, for targets of `target_format`; with the detail that
+    /// Builds all pipelines and uploads the textures, once, for targets of `target_format`; at the quality that
     /// suits the adapter.
     pub fn new(gpu: &Gpu, target_format: wgpu::TextureFormat, textures: &TextureSet) -> Self {
-        Self::with_detail(gpu, target_format, textures, Detail::for_adapter(&gpu.adapter_info))
+        Self::with_quality(gpu, target_format, textures, Quality::for_adapter(&gpu.adapter_info))
     }
 
-    /// [`Renderer::new`] with a detail of the caller's choice.
-    pub fn with_detail(
+    /// [`Renderer::new`] at a quality of the caller's choice.
+    pub fn with_quality(
         gpu: &Gpu,
         target_format: wgpu::TextureFormat,
         textures: &TextureSet,
-        detail: Detail,
+        quality: Quality,
     ) -> Self {
+        let detail = quality.detail();
         let device = &gpu.device;
         let features = gpu.adapter.get_texture_format_features(target_format).flags;
-        let n_samples = if features.sample_count_supported(N_SAMPLES) { N_SAMPLES } else { 1 };
+        let n_samples = if features.sample_count_supported(detail.n_samples) { detail.n_samples } else { 1 };
         let frame_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
             entries: &[wgpu::BindGroupLayoutEntry {
@@ -84,6 +99,7 @@ impl Renderer {
                 pass::sampler_entry(1, wgpu::SamplerBindingType::Comparison),
                 pass::texture_entry(2, wgpu::TextureSampleType::Float { filterable: true }),
                 pass::sampler_entry(3, wgpu::SamplerBindingType::Filtering),
+                pass::texture_entry(4, wgpu::TextureSampleType::Float { filterable: true }),
             ],
         });
         let frame_buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -103,20 +119,28 @@ impl Renderer {
             light_layout: &light_layout,
             target_format,
             n_samples,
+            quality,
             detail,
         };
-        let maze = Maze::new(gpu, &shared, textures);
+        let materials = Materials::new(gpu, &shared, textures);
+        let maze = match quality {
+            Quality::Low => Surfaces::Plain(Plain::new(&shared, &materials), FloorLight::new(&shared)),
+            Quality::Medium | Quality::High => Surfaces::Lit(Maze::new(&shared, &materials)),
+        };
         let board = Board {
             bounds: Bounds::around(std::iter::empty()),
             uv_from_maze: [1.0, 1.0, 0.0, 0.0],
-            floor_mean: maze.floor_mean,
+            floor_mean: materials.floor_mean,
             sun_map_side: detail.sun_map_side,
         };
         Self {
             background: Background::new(&shared),
             shadow: Shadow::new(&shared),
-            ball: Ball::new(&shared),
+            ball: Ball::new(&shared, &materials),
+            lines: Lines::new(&shared),
             maze,
+            quality,
+            materials,
             board,
             content: None,
             targets: None,
@@ -139,15 +163,15 @@ impl Renderer {
     /// adapter allows in a buffer; [`GpuError::VertexOutOfRange`] for an index beyond the vertices; both before
     /// anything is allocated on the adapter. [`GpuError::Device`] when it is out of memory or lost.
     pub fn set_maze(&mut self, gpu: &Gpu, mesh: &SurfaceMesh) -> Result<(), GpuError> {
-        let uploaded = Mesh::of_maze(gpu, mesh)?;
+        let uploaded = Mesh::of_maze(gpu, mesh, matches!(self.maze, Surfaces::Plain(..)))?;
         self.board.bounds = Bounds::around(mesh.vertices.iter().map(|v| v.position));
         let occlusion = OcclusionMap::new(mesh, &self.board.bounds);
         self.board.uv_from_maze = occlusion.uv_from_maze;
-        self.content = uploaded.map(|mesh| Content { mesh, light_group: self.light_group(gpu, &occlusion) });
+        self.content = uploaded.map(|mesh| self.content(gpu, mesh, &occlusion));
         Ok(())
     }
 
-    fn light_group(&self, gpu: &Gpu, occlusion: &OcclusionMap) -> wgpu::BindGroup {
+    fn content(&self, gpu: &Gpu, mesh: Mesh, occlusion: &OcclusionMap) -> Content {
         let size =
             wgpu::Extent3d { width: occlusion.width, height: occlusion.height, depth_or_array_layers: 1 };
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -181,7 +205,14 @@ impl Renderer {
             ..linear.clone()
         };
         let view = texture.create_view(&Default::default());
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let linear = gpu.device.create_sampler(&linear);
+        let floor_light = match &self.maze {
+            Surfaces::Plain(_, pass) => {
+                Some(pass.map(&gpu.device, [occlusion.width, occlusion.height], &view, &linear))
+            }
+            Surfaces::Lit(_) => None,
+        };
+        let light_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("light"),
             layout: &self.light_layout,
             entries: &[
@@ -194,12 +225,27 @@ impl Renderer {
                     resource: wgpu::BindingResource::Sampler(&gpu.device.create_sampler(&compare)),
                 },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&view) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&linear) },
                 wgpu::BindGroupEntry {
-                    binding: 3,
-                    resource: wgpu::BindingResource::Sampler(&gpu.device.create_sampler(&linear)),
+                    binding: 4,
+                    // Where nobody looks at the floor's light, any picture will do.
+                    resource: wgpu::BindingResource::TextureView(
+                        floor_light.as_ref().map_or(&view, |map| &map.view),
+                    ),
                 },
             ],
-        })
+        });
+        Content { mesh, light_group, floor_light }
+    }
+
+    /// What is spent on a picture.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// What is drawn differently from what was asked for, a line each: textures beyond the adapter's limit.
+    pub fn notes(&self) -> &[String] {
+        &self.materials.notes
     }
 
     /// The format of the views that [`Renderer::draw`] takes.
@@ -221,8 +267,15 @@ impl Renderer {
         let size = size.map(|n| n.max(1));
         let frame = Frame::new(scene, &self.board, size);
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
-        if let Some(content) = &self.content {
-            self.shadow.draw(encoder, &self.frame_group, &content.mesh);
+        self.lines.set(gpu, &scene.lines, &scene.patches);
+        let shows_ball = 0.0 < scene.ball.radius;
+        if let Some(Content { mesh, floor_light, .. }) = &self.content {
+            match (&self.maze, floor_light) {
+                (Surfaces::Plain(_, pass), Some(map)) => {
+                    pass.draw(encoder, &self.frame_group, map, mesh, shows_ball);
+                }
+                _ => self.shadow.draw(encoder, &self.frame_group, mesh),
+            }
         }
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
@@ -256,13 +309,22 @@ impl Renderer {
         pass.set_bind_group(0, &self.frame_group, &[]);
         if let Some(content) = &self.content {
             pass.set_bind_group(1, &content.light_group, &[]);
-            if 0.0 < scene.ball.radius {
-                self.ball.draw(&mut pass);
+            match &self.maze {
+                Surfaces::Lit(maze) => maze.draw(&mut pass, &self.materials, &content.mesh),
+                Surfaces::Plain(plain, _) => plain.draw(&mut pass, &self.materials, &content.mesh),
             }
-            self.maze.draw(&mut pass, &content.mesh);
         }
-        // Last: only what nothing covers is shaded.
+        // After the maze: only what nothing covers is shaded.
         self.background.draw(&mut pass);
+        if let Some(content) = &self.content {
+            if let Surfaces::Plain(plain, _) = &self.maze {
+                plain.draw_over(&mut pass, &self.materials, &content.mesh);
+            }
+            if shows_ball {
+                self.ball.draw(&mut pass, &self.materials);
+            }
+        }
+        self.lines.draw(&mut pass);
     }
 }
 

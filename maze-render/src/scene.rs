@@ -5,7 +5,7 @@ use nalgebra::UnitQuaternion;
 use crate::Camera;
 
 /// One frame, complete: the renderer keeps nothing between frames but the maze's mesh.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Where the eye is.
     pub camera: Camera,
@@ -19,6 +19,32 @@ pub struct Scene {
     pub goal: Marker,
     /// How brightly the goal shines, from 0 (painted) to 1 (lit); pulse it to draw the eye.
     pub goal_glow: f32,
+    /// Drawn over everything, in this order, above the patches.
+    pub lines: Vec<Line>,
+    /// Drawn over everything but the lines, in this order.
+    pub patches: Vec<Patch>,
+}
+
+/// A straight line of even width.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// One end, maze frame.
+    pub from: [f32; 3],
+    /// The other.
+    pub to: [f32; 3],
+    /// Pixels.
+    pub width: f32,
+    /// sRGB, and how much it covers.
+    pub colour: [u8; 4],
+}
+
+/// A flat, convex piece with four corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    /// In order around it, maze frame.
+    pub corners: [[f32; 3]; 4],
+    /// sRGB, and how much it covers.
+    pub colour: [u8; 4],
 }
 
 /// The ball as drawn.

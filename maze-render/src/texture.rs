@@ -143,20 +143,48 @@ fn check_header(name: &str, bytes: &[u8]) -> Result<(), TextureError> {
     if (bytes.len() as u64) < expected { Err(truncated(expected)) } else { Ok(()) }
 }
 
+/// What a picture's bytes mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Bytes {
+    /// Colours in sRGB, which the texture unit turns into light.
+    Decoded,
+    /// Colours in sRGB, handed out as they are.
+    Srgb,
+    /// Numbers.
+    Linear,
+}
+
+impl Bytes {
+    fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Decoded => wgpu::TextureFormat::Rgba8UnormSrgb,
+            Self::Srgb | Self::Linear => wgpu::TextureFormat::Rgba8Unorm,
+        }
+    }
+
+    fn read(self, byte: u8) -> f32 {
+        if self == Self::Linear { f32::from(byte) / 255.0 } else { from_srgb(byte) }
+    }
+
+    fn write(self, value: f32) -> u8 {
+        if self == Self::Linear { to_byte(value) } else { to_srgb(value) }
+    }
+}
+
 /// A picture on the GPU with all its mipmaps, and what it looks like from afar.
 pub(crate) struct Mipmapped {
     pub(crate) view: wgpu::TextureView,
     /// Mean colour, linear.
     pub(crate) mean: [f32; 3],
+    /// What to tell when the picture was made smaller.
+    pub(crate) note: Option<String>,
 }
 
 impl Mipmapped {
-    /// Levels wider than the adapter's textures are left out.
-    pub(crate) fn new(gpu: &crate::Gpu, name: &str, image: &RgbImage) -> Self {
-        let mut levels = mipmaps(image);
-        let max_side = gpu.max_side();
-        let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
-        levels.drain(..n_too_big.min(levels.len() - 1));
+    /// In `format`, whether the texture unit turns the bytes into light or leaves them in sRGB. Levels wider than the adapter's textures are left out.
+    pub(crate) fn new(gpu: &crate::Gpu, name: &str, image: &RgbImage, bytes: Bytes) -> Self {
+        let mut levels = mipmaps(image, bytes);
+        let note = shrink(&mut levels, name, gpu.max_side());
         let size = |level: &Level| wgpu::Extent3d {
             width: level.width,
             height: level.height,
@@ -168,14 +196,14 @@ impl Mipmapped {
             mip_level_count: u32::try_from(levels.len()).unwrap_or(1),
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            format: bytes.format(),
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
         for (mip_level, level) in (0..).zip(&levels) {
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() },
-                &level.srgb_bytes(),
+                &level.rgba(bytes),
                 wgpu::TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(4 * level.width),
@@ -185,11 +213,38 @@ impl Mipmapped {
             );
         }
         let mean = levels.last().map_or([0.5; 3], |level| level.pixels[0]);
-        Self { view: texture.create_view(&Default::default()), mean }
+        Self { view: texture.create_view(&Default::default()), mean, note }
     }
 }
 
-/// One mipmap level, in linear light: averaging sRGB bytes would darken fine detail.
+/// How a surface leans where its picture's light parts stand out and its dark ones, joints and pores, lie deep: red
+/// across, green down, 128 is level. Repeats at the edges, as the picture does.
+pub(crate) fn relief(image: &RgbImage) -> RgbImage {
+    let (width, height) = image.dimensions();
+    let light = |x: u32, y: u32| {
+        let [r, g, b] = image.get_pixel(x % width, y % height).0.map(f32::from);
+        (0.3 * r + 0.6 * g + 0.1 * b) / 255.0
+    };
+    let encode = |slope: f32| to_byte(0.5 + 0.5 * slope);
+    RgbImage::from_fn(width, height, |x, y| {
+        let across = light(x + 1, y) - light(x + width - 1, y);
+        let down = light(x, y + 1) - light(x, y + height - 1);
+        image::Rgb([encode(across), encode(down), 0])
+    })
+}
+
+/// Leaves out the levels that are wider than `max_side`, and says so.
+fn shrink(levels: &mut Vec<Level>, name: &str, max_side: u32) -> Option<String> {
+    let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
+    let left_out = levels.drain(..n_too_big.min(levels.len() - 1)).next();
+    let (from, to) = (left_out?, levels.first()?);
+    let [from, to] = [&from, to].map(|level| format!("{}x{}", level.width, level.height));
+    Some(format!(
+        "the {name} texture of {from} pixels is shown at {to}: this adapter takes {max_side} a side"
+    ))
+}
+
+/// One mipmap level; colours in linear light: averaging sRGB bytes would darken fine detail.
 struct Level {
     width: u32,
     height: u32,
@@ -197,8 +252,9 @@ struct Level {
 }
 
 impl Level {
-    fn srgb_bytes(&self) -> Vec<u8> {
-        self.pixels.iter().flat_map(|p| [to_srgb(p[0]), to_srgb(p[1]), to_srgb(p[2]), u8::MAX]).collect()
+    fn rgba(&self, bytes: Bytes) -> Vec<u8> {
+        let written = |p: &[f32; 3]| p.map(|value| bytes.write(value));
+        self.pixels.iter().map(written).flat_map(|[r, g, b]| [r, g, b, u8::MAX]).collect()
     }
 
     /// Half the size, rounded down; each pixel is the mean of all that it covers, also where a side is odd.
@@ -224,12 +280,12 @@ impl Level {
     }
 }
 
-fn mipmaps(image: &RgbImage) -> Vec<Level> {
+fn mipmaps(image: &RgbImage, bytes: Bytes) -> Vec<Level> {
     // An empty picture has no pixel to show: a single grey one stands in.
     let whole = if image.is_empty() {
         Level { width: 1, height: 1, pixels: vec![[0.5; 3]] }
     } else {
-        let pixels = image.pixels().map(|p| p.0.map(from_srgb)).collect();
+        let pixels = image.pixels().map(|p| p.0.map(|byte| bytes.read(byte))).collect();
         Level { width: image.width(), height: image.height(), pixels }
     };
     let mut levels = vec![whole];
@@ -249,7 +305,12 @@ fn from_srgb(byte: u8) -> f32 {
 /// The other way, rounded to the nearest byte.
 fn to_srgb(linear: f32) -> u8 {
     let c = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    let rounded = (c * 255.0 + 0.5).clamp(0.0, 255.0);
+    to_byte(c)
+}
+
+/// 0 to 1, rounded to the nearest byte.
+fn to_byte(value: f32) -> u8 {
+    let rounded = (value * 255.0 + 0.5).clamp(0.0, 255.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte's range")]
     let byte = rounded as u8;
     byte
@@ -267,10 +328,31 @@ mod tests {
     }
 
     #[test]
+    fn a_bright_brick_rises_from_its_dark_joint() {
+        // A joint two pixels wide, then brick.
+        let picture = RgbImage::from_fn(8, 4, |x, _| image::Rgb(if x < 2 { [40; 3] } else { [200; 3] }));
+        let relief = relief(&picture);
+        assert!(150 < relief.get_pixel(1, 1)[0] && 150 < relief.get_pixel(2, 1)[0], "up to the right");
+        assert!(relief.get_pixel(7, 1)[0] < 100, "down again where the picture repeats");
+        assert_eq!(relief.get_pixel(5, 1).0, [128, 128, 0], "level");
+    }
+
+    #[test]
+    fn a_picture_beyond_the_adapter_s_limit_is_made_smaller_and_that_is_said() {
+        let picture = RgbImage::new(40, 20);
+        let mut levels = mipmaps(&picture, Bytes::Srgb);
+        assert_eq!(shrink(&mut levels, "wall", 40), None);
+        let note = shrink(&mut levels, "wall", 16).unwrap();
+        assert_eq!(note, "the wall texture of 40x20 pixels is shown at 10x5: this adapter takes 16 a side");
+        assert_eq!((levels[0].width, levels.len()), (10, 4));
+        assert!(shrink(&mut levels, "wall", 0).is_some() && levels.len() == 1, "something is left to show");
+    }
+
+    #[test]
     fn mipmaps_average_light_not_bytes() {
         let checker =
             RgbImage::from_fn(6, 5, |x, y| image::Rgb(if (x + y) % 2 == 0 { [255; 3] } else { [0; 3] }));
-        let levels = mipmaps(&checker);
+        let levels = mipmaps(&checker, Bytes::Srgb);
         let sizes: Vec<_> = levels.iter().map(|l| [l.width, l.height]).collect();
         assert_eq!(sizes, [[6, 5], [3, 2], [1, 1]]);
         let last = to_srgb(levels[2].pixels[0][0]);

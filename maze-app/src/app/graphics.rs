@@ -1,15 +1,19 @@
 //! The window's GPU side: device, renderer, HUD; rebuilt when the device is lost.
 
 use crate::failure::Failure;
+use crate::files;
+use crate::frame_log::{FrameLog, Stopwatch};
 use crate::input;
+use crate::quality::QualityChoice;
 use crate::ui::{self, Hud, Overlay};
+use image::RgbaImage;
 use maze_core::Maze;
-use maze_render::{Acquired, Camera, Gpu, Renderer, Scene, TextureSet, WindowTarget};
+use maze_render::{Acquired, Camera, Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet, WindowTarget};
 use nalgebra::Vector3;
 use std::sync::Arc;
 use std::time::Duration;
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
-use winit::window::Window;
+use winit::window::{Fullscreen, Window};
 
 /// Frame caps: presenting in step with the screen is not reliable everywhere (a virtual display never waits), and a
 /// software driver shares its cores with the game.
@@ -20,8 +24,13 @@ const SOFTWARE_FRAMES_PER_S: u32 = 60;
 const MAX_REBUILDS: u32 = 3;
 
 pub(super) enum Drawn {
-    /// Shown, or nothing to show it on just now.
-    Done,
+    /// What our thread did (ms of the processor): recording and handing over; waiting for the window and giving back.
+    Shown {
+        encode: f64,
+        present: f64,
+    },
+    /// Nothing to show it on just now.
+    Hidden,
     DeviceLost,
 }
 
@@ -32,6 +41,8 @@ pub(super) struct Graphics {
     target: WindowTarget,
     renderer: Renderer,
     overlay: Overlay,
+    /// None where the adapter does not tell.
+    timer: Option<GpuTimer>,
     n_rebuilds: u32,
 }
 
@@ -40,22 +51,62 @@ impl Graphics {
         event_loop: &ActiveEventLoop,
         window: Window,
         textures: &TextureSet,
+        quality: QualityChoice,
     ) -> Result<Self, Failure> {
-        Self::build(event_loop.owned_display_handle(), Arc::new(window), textures, 0)
+        Self::build(event_loop.owned_display_handle(), Arc::new(window), textures, |gpu| quality.on(gpu), 0)
     }
 
     fn build(
         display: OwnedDisplayHandle,
         window: Arc<Window>,
         textures: &TextureSet,
+        quality: impl FnOnce(&Gpu) -> Quality,
         n_rebuilds: u32,
     ) -> Result<Self, Failure> {
         let size = window.inner_size().into();
-        let (gpu, target) =
+        let (gpu, mut target) =
             Gpu::for_window(window.clone(), Box::new(display.clone()), size).map_err(Failure::bad_input)?;
-        let renderer = Renderer::new(&gpu, target.format(), textures);
+        let quality = quality(&gpu);
+        target.set_srgb(&gpu, quality.wants_srgb_target());
+        let renderer = Renderer::with_quality(&gpu, target.format(), textures, quality);
+        for note in renderer.notes() {
+            files::note(note);
+        }
         let overlay = Overlay::new(&gpu, target.format());
-        Ok(Self { window, display, gpu, target, renderer, overlay, n_rebuilds })
+        let timer = GpuTimer::new(&gpu);
+        Ok(Self { window, display, gpu, target, renderer, overlay, timer, n_rebuilds })
+    }
+
+    /// Draws at another quality from now on. The maze has to be set again.
+    pub(super) fn set_quality(&mut self, quality: Quality, textures: &TextureSet) {
+        self.target.set_srgb(&self.gpu, quality.wants_srgb_target());
+        self.renderer = Renderer::with_quality(&self.gpu, self.target.format(), textures, quality);
+        self.overlay = Overlay::new(&self.gpu, self.target.format());
+    }
+
+    pub(super) fn quality(&self) -> Quality {
+        self.renderer.quality()
+    }
+
+    /// Name of the adapter, backend, driver.
+    pub(super) fn adapter(&self) -> String {
+        self.gpu.describe()
+    }
+
+    /// Width and height in pixels.
+    pub(super) fn size(&self) -> [u32; 2] {
+        self.target.size()
+    }
+
+    pub(super) fn toggle_fullscreen(&self) {
+        let is_on = self.window.fullscreen().is_some();
+        self.window.set_fullscreen((!is_on).then_some(Fullscreen::Borderless(None)));
+    }
+
+    /// The scene without the HUD.
+    pub(super) fn screenshot(&mut self, scene: &Scene) -> Result<RgbaImage, Failure> {
+        let size = self.target.size();
+        maze_render::capture(&self.gpu, &mut self.renderer, size, scene).map_err(Failure::bad_input)
     }
 
     /// A new device in place of a lost one. The maze has to be set again.
@@ -66,8 +117,9 @@ impl Graphics {
                 MAX_REBUILDS + 1
             )));
         }
+        let quality = self.quality();
         let Self { display, window, n_rebuilds, .. } = self;
-        Self::build(display, window, textures, n_rebuilds + 1)
+        Self::build(display, window, textures, |_| quality, n_rebuilds + 1)
     }
 
     pub(super) fn set_maze(&mut self, maze: &Maze, title: &str) -> Result<(), Failure> {
@@ -106,7 +158,7 @@ impl Graphics {
         scale
     }
 
-    /// Shortest time from frame to frame.
+    /// Shortest time from frame to frame in the game.
     pub(super) fn frame_time(&self) -> Duration {
         let software = self.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
         Duration::from_secs(1) / if software { SOFTWARE_FRAMES_PER_S } else { FRAMES_PER_S }
@@ -118,24 +170,46 @@ impl Graphics {
         Some(Camera::world_from_view().cast::<f64>() * point)
     }
 
-    pub(super) fn draw(&mut self, scene: &Scene, hud: &Hud<'_>) -> Result<Drawn, Failure> {
+    /// Tells the log the adapter's times of earlier frames.
+    pub(super) fn tell_times(&mut self, log: &mut FrameLog) {
+        while let Some((number, seconds)) = self.timer.as_mut().and_then(GpuTimer::take) {
+            log.set_gpu_time(number, seconds);
+        }
+    }
+
+    /// Draws and shows a frame, the log's number `number`.
+    pub(super) fn draw(&mut self, scene: &Scene, hud: &Hud<'_>, number: u64) -> Result<Drawn, Failure> {
+        let watch = Stopwatch::start();
         let frame = match self.target.acquire(&self.gpu).map_err(Failure::bad_input)? {
             Acquired::Frame(frame) => frame,
-            Acquired::Skip => return Ok(Drawn::Done),
+            Acquired::Skip => return Ok(Drawn::Hidden),
             Acquired::DeviceLost => return Ok(Drawn::DeviceLost),
         };
+        let acquire = watch.ms();
+        let watch = Stopwatch::start();
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let size = self.target.size();
         let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if let Some(timer) = &mut self.timer {
+            timer.begin(&mut encoder, number);
+        }
         self.renderer.draw(&self.gpu, &mut encoder, &view, size, scene);
         self.overlay.draw(&self.gpu, &mut encoder, &view, size, self.scale(), hud);
+        if let Some(timer) = &mut self.timer {
+            timer.end(&mut encoder);
+        }
         self.gpu.queue.submit([encoder.finish()]);
+        let encode = watch.ms();
+        let watch = Stopwatch::start();
+        if let Some(timer) = &mut self.timer {
+            timer.submitted();
+        }
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
         match self.gpu.take_error() {
             Some(_) if self.gpu.is_lost() => Ok(Drawn::DeviceLost),
             Some(error) => Err(Failure::bad_input(error)),
-            None => Ok(Drawn::Done),
+            None => Ok(Drawn::Shown { encode, present: acquire + watch.ms() }),
         }
     }
 }

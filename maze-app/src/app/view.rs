@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use std::time::Duration;
 
 /// How far the player may go: 1 shows the whole maze.
-const ZOOM_RANGE: [f64; 2] = [0.5, 6.0];
+pub(crate) const ZOOM_RANGE: [f64; 2] = [0.5, 6.0];
 
 /// What one key press or notch of the wheel multiplies the zoom by.
 const ZOOM_PER_NOTCH: f64 = 1.15;
@@ -23,6 +23,14 @@ pub(super) fn with_room_below(camera: Camera, part: f32) -> Camera {
     let down = part * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
     let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
     Camera { target: target.into(), distance }
+}
+
+/// A view that many times nearer than `whole`, the ball in its middle from [`FOLLOW_ZOOM`] on; `ball` is in the world.
+pub(crate) fn zoomed(whole: Camera, zoom: f64, ball: Vector3<f32>) -> Camera {
+    let follow = ((zoom - 1.0) / (FOLLOW_ZOOM - 1.0)).clamp(0.0, 1.0);
+    let middle = Vector3::from(whole.target);
+    let target = middle + (ball - middle) * to_f32(follow);
+    Camera { target: target.into(), distance: whole.distance / to_f32(zoom) }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -58,10 +66,7 @@ impl View {
     pub(super) fn update(&mut self, elapsed: Duration, whole: Camera, ball: Vector3<f32>) {
         let left = (-elapsed.as_secs_f64() / SETTLE_S).exp();
         self.zoom = self.wanted_zoom + (self.zoom - self.wanted_zoom) * left;
-        let follow = ((self.zoom - 1.0) / (FOLLOW_ZOOM - 1.0)).clamp(0.0, 1.0);
-        let middle = Vector3::from(whole.target);
-        let target = middle + (ball - middle) * to_f32(follow);
-        self.camera = Camera { target: target.into(), distance: whole.distance / to_f32(self.zoom) };
+        self.camera = zoomed(whole, self.zoom, ball);
     }
 }
 

@@ -1,9 +1,10 @@
 //! `maze-app play`: the game in a window.
 
-use crate::app::{self, App};
+use crate::app::{self, App, Options};
 use crate::failure::Failure;
 use crate::files;
 use crate::game::EngineKind;
+use crate::quality::QualityChoice;
 use crate::sidecar;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
@@ -25,6 +26,9 @@ pub(crate) struct Arguments {
     /// Steepest tilt of the board, 1 to 45 degrees
     #[arg(long, value_name = "DEGREES", value_parser = parse_max_tilt, default_value = "20")]
     max_tilt: f64,
+    /// How much is spent on the picture; Q changes it
+    #[arg(long, value_enum, default_value_t = QualityChoice::Auto)]
+    quality: QualityChoice,
     /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
@@ -44,7 +48,7 @@ fn parse_max_tilt(text: &str) -> Result<f64, String> {
     degrees.ok_or_else(|| "expected 1 to 45 degrees".to_owned())
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
+pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok().filter(|seconds: &f64| 0.0 <= *seconds);
     let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     duration.ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
@@ -59,6 +63,7 @@ pub(crate) struct Setup {
     pub(crate) state_log: Option<PathBuf>,
     pub(crate) record: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
+    pub(crate) quality: QualityChoice,
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
@@ -78,6 +83,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         state_log: arguments.state_log,
         record: arguments.record,
         exit_after: arguments.exit_after,
+        quality: arguments.quality,
     };
-    App::new(setup, maze)?.run(event_loop)
+    App::new(setup, Options::default(), maze)?.run(event_loop).map(|_| ())
 }

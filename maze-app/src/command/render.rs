@@ -1,8 +1,10 @@
 //! `maze-app render`: one picture, no window.
 
+use crate::app::view::{ZOOM_RANGE, zoomed};
 use crate::failure::Failure;
 use crate::files;
 use crate::game::{EngineKind, Game};
+use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
 use crate::sidecar;
 use crate::source::{KnownMazeArguments, Source};
@@ -10,7 +12,7 @@ use crate::ui::to_points;
 use clap::Args;
 use image::ImageFormat;
 use maze_core::Tilt;
-use maze_render::{CAPTURE_FORMAT, Camera, Detail, Gpu, Renderer};
+use maze_render::{Camera, Gpu, Renderer};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -37,15 +39,27 @@ pub(crate) struct Arguments {
     /// Degrees by which the board goes down towards +x and towards +y, together at most 45
     #[arg(long, value_name = "X,Y", value_parser = parse_tilt, default_value = "0,0", allow_hyphen_values = true)]
     tilt: Tilt,
+    /// How many times nearer than a view of the whole maze, 0.5 to 6; from 2 on with the ball in the middle
+    #[arg(long, value_name = "Z", value_parser = parse_zoom, default_value = "1")]
+    zoom: f64,
     /// Ticks of 0.03 s under that tilt before the picture, at most 120000
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
     ticks: u32,
     /// How the ball's motion is computed
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
+    /// How much is spent on the picture, which may take its time on any driver
+    #[arg(long, value_enum, default_value_t = QualityChoice::High)]
+    quality: QualityChoice,
     /// Directory with wall.bmp, floor.bmp and top.bmp (24-bit, uncompressed) [default: built in]
     #[arg(long, value_name = "DIR")]
     textures: Option<PathBuf>,
+}
+
+fn parse_zoom(text: &str) -> Result<f64, String> {
+    let [least, most] = ZOOM_RANGE;
+    let zoom = text.parse().ok().filter(|zoom| (least..=most).contains(zoom));
+    zoom.ok_or_else(|| format!("expected {least} to {most}"))
 }
 
 /// Two angles; the board turns about the axis across their direction by the length of the pair.
@@ -74,16 +88,21 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     game.show_tilt(arguments.tilt);
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
-    // A picture may take its time on any driver.
-    let mut renderer = Renderer::with_detail(&gpu, CAPTURE_FORMAT, &textures, Detail::FULL);
+    let quality = arguments.quality.on(&gpu);
+    let mut renderer = Renderer::with_quality(&gpu, quality.picture_format(), &textures, quality);
+    for note in renderer.notes() {
+        files::note(note);
+    }
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
     let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
     let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
-    let camera = Camera::fitted(game.half_size(), aspect, tilt_rad);
-    let picture =
-        maze_render::capture(&gpu, &mut renderer, arguments.size, &game.scene(&game.pose(1.0, None), camera))
-            .map_err(Failure::bad_input)?;
+    let pose = game.pose(1.0, None);
+    let whole = Camera::fitted(game.half_size(), aspect, tilt_rad);
+    let camera = zoomed(whole, arguments.zoom, pose.ball_in_world().cast());
+    let scene = game.scene(&pose, camera);
+    let picture = maze_render::capture(&gpu, &mut renderer, arguments.size, &scene);
+    let picture = picture.map_err(Failure::bad_input)?;
     let mut png = Cursor::new(Vec::new());
     picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
     files::write_whole(&arguments.out, png.get_ref())

@@ -20,6 +20,14 @@ pub(crate) enum Action {
     PreviousLevel,
     /// Show or hide the list of keys.
     ToggleHelp,
+    /// The next quality of the picture.
+    NextQuality,
+    /// Show or hide what frames take.
+    ToggleFrames,
+    /// The picture into a file.
+    Screenshot,
+    /// The whole screen, or a window again.
+    ToggleFullscreen,
     Quit,
 }
 
@@ -30,6 +38,9 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
         Key::Named(NamedKey::Enter) => Action::GoOnFromGoal,
         Key::Named(NamedKey::PageDown) => Action::NextLevel,
         Key::Named(NamedKey::PageUp) => Action::PreviousLevel,
+        Key::Named(NamedKey::F3) => Action::ToggleFrames,
+        Key::Named(NamedKey::F11) => Action::ToggleFullscreen,
+        Key::Named(NamedKey::F12) => Action::Screenshot,
         Key::Character(text) => match text.to_ascii_lowercase().as_str() {
             "b" => Action::ZoomIn,
             "s" => Action::ZoomOut,
@@ -37,6 +48,7 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
             "r" => Action::Restart,
             "n" => Action::GoOn,
             "h" => Action::ToggleHelp,
+            "q" => Action::NextQuality,
             _ => return None,
         },
         _ => return None,

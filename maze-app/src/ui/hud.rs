@@ -1,12 +1,13 @@
 //! Clock, maze, keys, and the goal.
 
+use super::FramesPanel;
 use crate::source::{Onwards, Source};
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
 use maze_core::{Maze, Phase};
 
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
-const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
-const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+pub(super) const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
+pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
@@ -18,7 +19,7 @@ const SMALL: [f32; 2] = [520.0, 300.0];
 /// The list of keys in one line, with its margins (points).
 const KEYS_HEIGHT: f32 = 50.0;
 
-const KEYS: [(&str, &str); 9] = [
+const KEYS: [(&str, &str); 13] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
@@ -26,6 +27,10 @@ const KEYS: [(&str, &str); 9] = [
     ("R", "restart"),
     ("N", ""), // what it does depends on the maze
     ("PgUp / PgDn", "levels"),
+    ("Q", "quality"),
+    ("F3", "frame times"),
+    ("F11", "whole screen"),
+    ("F12", "picture to a file"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];
@@ -37,11 +42,14 @@ pub(crate) struct Hud<'a> {
     pub(crate) tick_s: f64,
     pub(crate) labels: &'a Labels,
     pub(crate) help: bool,
-    /// What went wrong, while it is worth saying.
+    /// News of a moment.
     pub(crate) notice: Option<&'a str>,
+    /// What frames take, when asked for.
+    pub(crate) frames: Option<FramesPanel<'a>>,
 }
 
 /// What does not change while a maze is played.
+#[derive(Default)]
 pub(crate) struct Labels {
     title: String,
     /// In small letters: what the maze is like.
@@ -117,6 +125,9 @@ impl Hud<'_> {
                 }
             });
         });
+        if let Some(frames) = self.frames {
+            area(ui.ctx(), "frames", Align2::RIGHT_TOP, vec2(-MARGIN, 4.5 * MARGIN), |ui| frames.show(ui));
+        }
         if self.help {
             self.keys(ui.ctx());
         }

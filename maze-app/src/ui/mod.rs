@@ -1,31 +1,31 @@
 //! What is written over the picture, with egui.
 
+mod frames_panel;
 mod hud;
 
+pub(crate) use frames_panel::FramesPanel;
 pub(crate) use hud::{Hud, Labels};
 
-use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
-use maze_render::Gpu;
+use egui::ClippedPrimitive;
+use egui::epaint::{ImageData, Primitive};
+use maze_render::{Gpu, PaintBatch, PaintVertex, Painter};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
-/// Draws egui over a finished frame.
+/// Draws egui over a finished frame. The library's own wgpu renderer asks a texture in two ways and picks one by a
+/// uniform, which a software driver pays for at every pixel: 6 ms of the processor a frame instead of 2.
 pub(crate) struct Overlay {
     context: egui::Context,
-    renderer: Renderer,
+    painter: Painter,
 }
 
 impl Overlay {
     pub(crate) fn new(gpu: &Gpu, format: TextureFormat) -> Self {
         let context = egui::Context::default();
         hud::style(&context);
-        Self { context, renderer: Renderer::new(&gpu.device, format, RendererOptions::default()) }
+        Self { context, painter: Painter::new(gpu, format) }
     }
 
     /// Lays out the HUD and encodes a pass that draws it over `view`.
-    #[allow(
-        clippy::iter_over_hash_type,
-        reason = "each texture is set or freed by itself, in whatever order"
-    )]
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
@@ -35,7 +35,6 @@ impl Overlay {
         scale: f32,
         hud: &Hud,
     ) {
-        let screen = ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale };
         let [width, height] = size.map(|pixels| to_points(pixels, scale));
         let mut input = egui::RawInput {
             screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height))),
@@ -45,29 +44,41 @@ impl Overlay {
             viewport.native_pixels_per_point = Some(scale);
         }
         let mut output = self.context.run_ui(input, |ui| hud.show(ui));
-        for (id, deltas) in output.textures_delta.set.drain() {
-            for delta in deltas {
-                self.renderer.update_texture(&gpu.device, &gpu.queue, id, &delta);
-            }
+        // Only the letters have a texture.
+        for delta in output.textures_delta.set.drain().flat_map(|(_, deltas)| deltas) {
+            let ImageData::Color(image) = &delta.image;
+            let pixels: Vec<u8> = image.pixels.iter().flat_map(|pixel| pixel.to_array()).collect();
+            self.painter.set_atlas(
+                gpu,
+                image.size.map(to_u32),
+                delta.pos.map(|pos| pos.map(to_u32)),
+                &pixels,
+            );
         }
+        output.textures_delta.free.clear();
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
-        // egui returns command buffers only for paint callbacks, of which there are none.
-        let _ = self.renderer.update_buffers(&gpu.device, &gpu.queue, encoder, &shapes, &screen);
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("hud"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
-            })],
-            ..Default::default()
-        });
-        self.renderer.render(&mut pass.forget_lifetime(), &shapes, &screen);
-        for id in output.textures_delta.free.drain() {
-            self.renderer.free_texture(&id);
-        }
+        let batches: Vec<_> = shapes.into_iter().filter_map(batch).collect();
+        self.painter.draw(gpu, encoder, view, size, scale, &batches);
     }
+}
+
+fn batch(shape: ClippedPrimitive) -> Option<PaintBatch> {
+    let Primitive::Mesh(mesh) = shape.primitive else { return None };
+    let vertex = |v: &egui::epaint::Vertex| PaintVertex {
+        position: v.pos.into(),
+        uv: v.uv.into(),
+        colour: v.color.to_array(),
+    };
+    let clip = shape.clip_rect;
+    Some(PaintBatch {
+        clip: [clip.left(), clip.top(), clip.right(), clip.bottom()],
+        vertices: mesh.vertices.iter().map(vertex).collect(),
+        indices: mesh.indices,
+    })
+}
+
+fn to_u32(side: usize) -> u32 {
+    u32::try_from(side).unwrap_or(u32::MAX)
 }
 
 /// Pixels in the units of the HUD: the window system's scale taken out.

@@ -1,30 +1,35 @@
 //! The ball: a sphere with a pattern that turns with it, lit like the maze and with the room mirrored in it.
 
+use super::material::Materials;
 use super::{PassPipeline, Shared};
-use crate::mesh::{Mesh, Vertex};
 use crate::shader;
 
 pub(crate) struct Ball {
     pipeline: wgpu::RenderPipeline,
-    mesh: Mesh,
 }
 
 impl Ball {
-    pub(crate) fn new(shared: &Shared<'_>) -> Self {
+    pub(crate) fn new(shared: &Shared<'_>, materials: &Materials) -> Self {
+        let is_plain = !shared.quality.wants_srgb_target();
         let pipeline = shared.pipeline(&PassPipeline {
-            shader: shader::BALL,
-            constants: &[("sun_looks", shared.detail.sun_looks.into())],
-            groups: &[Some(shared.frame_layout), Some(shared.light_layout)],
-            vertices: &[Some(Vertex::LAYOUT)],
-            cull: Some(wgpu::Face::Back),
-            writes_depth: true,
+            constants: &[
+                ("sun_looks", shared.detail.sun_looks.into()),
+                ("is_plain", f64::from(u8::from(is_plain))),
+            ],
+            groups: &[Some(shared.frame_layout), Some(shared.light_layout), Some(&materials.layout)],
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            // The outline covers parts of pixels.
+            blend: Some(wgpu::BlendState::ALPHA_BLENDING),
+            ..PassPipeline::new(shader::BALL)
         });
-        Self { pipeline, mesh: Mesh::ball(shared.device) }
+        Self { pipeline }
     }
 
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+    /// Draws over what is there.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, materials: &Materials) {
         pass.set_pipeline(&self.pipeline);
-        self.mesh.bind(pass);
-        pass.draw_indexed(self.mesh.groups[0].clone(), 0, 0..1);
+        // The floor, which the ball mirrors.
+        pass.set_bind_group(2, &materials.groups[2], &[]);
+        pass.draw(0..4, 0..1);
     }
 }

@@ -2,15 +2,19 @@
 
 pub(crate) mod background;
 pub(crate) mod ball;
+pub(crate) mod floor_light;
+pub(crate) mod lines;
+pub(crate) mod material;
 pub(crate) mod maze;
+pub(crate) mod plain;
 pub(crate) mod shadow;
 
-pub use maze::Material;
+pub use material::Material;
 
 use nalgebra::{Matrix4, Vector3};
 
-use crate::Detail;
 use crate::light::{self, Bounds};
+use crate::quality::{Detail, Quality};
 use crate::scene::{Marker, Scene};
 
 /// Depth buffer of the picture and of the sun's map.
@@ -31,9 +35,9 @@ pub struct Frame {
     pub maze_from_clip: [[f32; 4]; 4],
     /// To the sun's map.
     pub sun_clip_from_maze: [[f32; 4]; 4],
-    /// Position; unused.
+    /// Position; two over the picture's width.
     pub eye: [f32; 4],
-    /// Unit vector towards the sun; unused.
+    /// Unit vector towards the sun; two over the picture's height.
     pub sun: [f32; 4],
     /// Unit vector up in the world; depth of the table below the origin.
     pub up: [f32; 4],
@@ -83,8 +87,8 @@ impl Frame {
             clip_from_maze: columns(&clip_from_maze),
             maze_from_clip: columns(&clip_from_maze.try_inverse().unwrap_or_else(Matrix4::identity)),
             sun_clip_from_maze: columns(&sun_clip_from_maze),
-            eye: with(maze_from_world * scene.camera.eye().coords, 0.0),
-            sun: with(sun, 0.0),
+            eye: with(maze_from_world * scene.camera.eye().coords, 2.0 / size[0] as f32),
+            sun: with(sun, 2.0 / size[1] as f32),
             up: with(turned([0.0, 0.0, 1.0]), drop),
             sky: with(turned(SKY_IN_WORLD), bounds.max[2]),
             ball: [bx, by, bz, scene.ball.radius],
@@ -112,12 +116,16 @@ pub(crate) struct Shared<'a> {
     pub(crate) light_layout: &'a wgpu::BindGroupLayout,
     pub(crate) target_format: wgpu::TextureFormat,
     pub(crate) n_samples: u32,
+    pub(crate) quality: Quality,
     pub(crate) detail: Detail,
 }
 
 /// How one pass differs from the others.
+#[derive(Clone, Copy)]
 pub(crate) struct PassPipeline<'a> {
     pub(crate) shader: crate::Shader,
+    /// Of the vertex and of the fragment stage.
+    pub(crate) entry_points: [&'a str; 2],
     /// For the shader's `override`s, beside `encode_srgb`.
     pub(crate) constants: &'a [(&'a str, f64)],
     pub(crate) groups: &'a [Option<&'a wgpu::BindGroupLayout>],
@@ -125,10 +133,37 @@ pub(crate) struct PassPipeline<'a> {
     pub(crate) cull: Option<wgpu::Face>,
     /// False leaves the depth as it is: for what lies behind everything.
     pub(crate) writes_depth: bool,
+    /// Shown whatever is nearer.
+    pub(crate) is_over_all: bool,
+    pub(crate) topology: wgpu::PrimitiveTopology,
+    pub(crate) blend: Option<wgpu::BlendState>,
+    pub(crate) writes: wgpu::ColorWrites,
+    /// Format and samples of a target other than the picture; it has no depth.
+    pub(crate) target: Option<(wgpu::TextureFormat, u32)>,
+}
+
+impl PassPipeline<'_> {
+    /// Triangles that replace what is farther away in the picture.
+    pub(crate) fn new(shader: crate::Shader) -> Self {
+        Self {
+            shader,
+            entry_points: ["vertex", "fragment"],
+            constants: &[],
+            groups: &[],
+            vertices: &[],
+            cull: None,
+            writes_depth: true,
+            is_over_all: false,
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            blend: None,
+            writes: wgpu::ColorWrites::ALL,
+            target: None,
+        }
+    }
 }
 
 impl Shared<'_> {
-    /// A pipeline that draws into the picture.
+    /// A pipeline that draws into the picture, or into the target it names.
     pub(crate) fn pipeline(&self, of: &PassPipeline<'_>) -> wgpu::RenderPipeline {
         let module = of.shader.module(self.device);
         let layout = self.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -136,10 +171,15 @@ impl Shared<'_> {
             bind_group_layouts: of.groups,
             immediate_size: 0,
         });
+        let (format, n_samples) = of.target.unwrap_or((self.target_format, self.n_samples));
         // Surfaces without an sRGB format (some browsers) get it from the shader.
         let encodes = f64::from(u8::from(!self.target_format.is_srgb()));
+        let with_encoding = [of.constants, &[("encode_srgb", encodes)]].concat();
         let compilation_options = wgpu::PipelineCompilationOptions {
-            constants: &[of.constants, &[("encode_srgb", encodes)]].concat(),
+            constants: match of.target {
+                None => &with_encoding,
+                Some(_) => of.constants,
+            },
             ..Default::default()
         };
         self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -147,28 +187,50 @@ impl Shared<'_> {
             layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some("vertex"),
+                entry_point: Some(of.entry_points[0]),
                 compilation_options: compilation_options.clone(),
                 buffers: of.vertices,
             },
-            primitive: wgpu::PrimitiveState { cull_mode: of.cull, ..Default::default() },
-            depth_stencil: Some(wgpu::DepthStencilState {
+            primitive: wgpu::PrimitiveState {
+                topology: of.topology,
+                cull_mode: of.cull,
+                ..Default::default()
+            },
+            depth_stencil: of.target.is_none().then(|| wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
                 depth_write_enabled: Some(of.writes_depth),
-                depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                depth_compare: Some(if of.is_over_all {
+                    wgpu::CompareFunction::Always
+                } else {
+                    wgpu::CompareFunction::LessEqual
+                }),
                 stencil: Default::default(),
                 bias: Default::default(),
             }),
-            multisample: wgpu::MultisampleState { count: self.n_samples, ..Default::default() },
+            multisample: wgpu::MultisampleState { count: n_samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: &module,
-                entry_point: Some("fragment"),
+                entry_point: Some(of.entry_points[1]),
                 compilation_options,
-                targets: &[Some(self.target_format.into())],
+                targets: &[Some(wgpu::ColorTargetState { format, blend: of.blend, write_mask: of.writes })],
             }),
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+/// Draws a part of the bound mesh, if it has any triangles.
+fn draw_group(
+    pass: &mut wgpu::RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    material: &wgpu::BindGroup,
+    group: &std::ops::Range<u32>,
+) {
+    if !group.is_empty() {
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, material, &[]);
+        pass.draw_indexed(group.clone(), 0, 0..1);
     }
 }
 

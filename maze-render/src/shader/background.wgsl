@@ -1,14 +1,12 @@
 // A table under the board: a pool of light in the middle, dark towards the edges, with the board's shadow on it.
 
+// Its light changes slowly: it is computed at the corners of a grid.
+
+const CELLS = vec2(48u, 27u);
+
 struct Corner {
     @builtin(position) clip: vec4<f32>,
-    @location(0) screen: vec2<f32>,
-}
-
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> Corner {
-    let screen = vec2(f32((index & 1u) << 2u), f32((index & 2u) << 1u)) - 1.0;
-    return Corner(vec4(screen, 1.0, 1.0), screen);
+    @location(0) colour: vec3<f32>,
 }
 
 // Signed distance from the board's outline, along the floor.
@@ -24,9 +22,8 @@ fn noise(pixel: vec2<f32>) -> f32 {
     return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
-@fragment
-fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    let far = frame.maze_from_clip * vec4(in.screen, 1.0, 1.0);
+fn table_light(screen: vec2<f32>) -> vec3<f32> {
+    let far = frame.maze_from_clip * vec4(screen, 1.0, 1.0);
     let ray = normalize(far.xyz / far.w - frame.eye.xyz);
     let drop = frame.up.w;
     let height = dot(frame.eye.xyz, frame.up.xyz) + drop;
@@ -34,7 +31,7 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     let table = frame.eye.xyz + ray * (height / descent);
 
     // Lit from the sun's side: the pool lies off the middle.
-    let pool = exp(-1.1 * dot(in.screen - vec2(-0.25, 0.3), in.screen - vec2(-0.25, 0.3)));
+    let pool = exp(-1.1 * dot(screen - vec2(-0.25, 0.3), screen - vec2(-0.25, 0.3)));
     var light = mix(vec3(0.016, 0.021, 0.027), vec3(0.150, 0.172, 0.188), pool);
 
     // The sun's shadow: where the way to the sun meets the board's plane. Softer the further it fell.
@@ -43,6 +40,25 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     // The sky's: right below.
     light *= 1.0 - 0.38 * smoothstep(1.1 * drop, -0.9 * drop, from_board(table.xy));
 
+    return light;
+}
+
+// Six corners a cell, cells in rows.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    let cell = index / 6u;
+    let corner = array(0u, 1u, 2u, 2u, 1u, 3u)[index % 6u];
+    let place = vec2(cell % CELLS.x + (corner & 1u), cell / CELLS.x + (corner >> 1u));
+    let screen = vec2<f32>(place) / vec2<f32>(CELLS) * 2.0 - 1.0;
+    return Corner(vec4(screen, 1.0, 1.0), picture(table_light(screen)).rgb);
+}
+
+@fragment
+fn fragment(in: Corner) -> @location(0) vec4<f32> {
     let step = (noise(in.clip.xy) - 0.5) / 255.0;
-    return picture(light + step * (0.4 + 2.0 * sqrt(light)) * 0.6);
+    if encode_srgb {
+        return vec4(in.colour + step, 1.0);
+    }
+    // As large a step where the target makes sRGB of it.
+    return vec4(in.colour + step * (0.24 + 1.2 * sqrt(in.colour)), 1.0);
 }

@@ -1,18 +1,32 @@
-// A lacquered ball: eight fields in ivory and cobalt, gold let into the seams, a gold-rimmed cap on each of the six
+// A steel ball: polished and satin fields in turn, grooves between them, inlays of brass and blued steel on the six
 // corners where they meet. Every turn shows.
+
+// Set where textures are in sRGB and not decoded.
+override is_plain: bool = false;
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
     @location(0) position: vec3<f32>,
-    @location(1) on_ball: vec3<f32>,
 }
 
+struct Seen {
+    @location(0) colour: vec4<f32>,
+    @builtin(frag_depth) depth: f32,
+}
+
+// A square across the line of sight that covers the ball's outline. The ball itself is met by each pixel's ray: round at
+// any distance, and no more pixels are shaded than it has.
 @vertex
-fn vertex(@location(0) on_ball: vec3<f32>) -> Corner {
-    let q = frame.ball_rotation;
-    let turned = on_ball + 2.0 * cross(q.xyz, cross(q.xyz, on_ball) + q.w * on_ball);
-    let position = frame.ball.xyz + frame.ball.w * turned;
-    return Corner(frame.clip_from_maze * vec4(position, 1.0), position, on_ball);
+fn vertex(@builtin(vertex_index) index: u32) -> Corner {
+    let to_eye = frame.eye.xyz - frame.ball.xyz;
+    let distance = max(length(to_eye), 1.01 * frame.ball.w);
+    let forward = to_eye / distance;
+    let side = normalize(cross(frame.up.xyz + vec3(0.013, 0.007, 0.0), forward));
+    let corner = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
+    let outline = frame.ball.w * distance / sqrt(distance * distance - frame.ball.w * frame.ball.w);
+    let reach = outline + pixel_at(frame.ball.xyz);
+    let position = frame.ball.xyz + reach * (corner.x * side + corner.y * cross(forward, side));
+    return Corner(frame.clip_from_maze * vec4(position, 1.0), position);
 }
 
 // -1 to 1 across an edge, smooth over a pixel.
@@ -20,57 +34,83 @@ fn sided(d: f32, pixel: f32) -> f32 {
     return clamp(d / pixel, -1.0, 1.0);
 }
 
-@fragment
-fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    let b = normalize(in.on_ball);
-    let pixel = max(0.75 * length(fwidth(in.on_ball)), 1e-4);
-    let n = normalize(in.position - frame.ball.xyz);
-    let p = in.position;
-    let v = normalize(frame.eye.xyz - p);
+// What the polished steel shows in direction r from p: sky, a window of soft light beside the sun, walls near by, and the
+// floor where r meets it.
+fn mirrored_room(p: vec3<f32>, r: vec3<f32>) -> vec3<f32> {
+    let side = normalize(cross(frame.up.xyz, frame.sun.xyz));
+    let along = normalize(cross(frame.sun.xyz, side));
+    let w = vec2(dot(r, side), dot(r, along)) / max(dot(r, frame.sun.xyz), 1e-3);
+    let pane = smoothstep(0.42, 0.34, abs(w.x)) * smoothstep(0.42, 0.34, abs(w.y));
+    let in_front = select(0.0, 1.0, 0.0 < dot(r, frame.sun.xyz));
+    var light = sky(r) + vec3(1.5, 1.4, 1.25) * pane * in_front;
 
-    // Fields: the sign of x y z. Seams: the three great circles. Caps: around the six axes' ends.
+    let reach = max(p.z, 0.0) / max(-r.z, 0.02);
+    let hit = p.xy + r.xy * min(reach, 6.0);
+    let texel = textureSampleLevel(surface_texture, surface_sampler, surface_uv(hit), 3.5).rgb;
+    // A texture that is not decoded when looked at: sRGB is close to a power of 2.2.
+    let wood = select(texel, pow(texel, vec3(2.2)), is_plain);
+    let sunlit = sun_over_walls(vec3(hit, 0.01), vec3(0.0, 0.0, 1.0)) * max(frame.sun.z, 0.0);
+    let floor_seen = wood * (SUN_LIGHT * sunlit / 2.2 + SKY_LIGHT * sky_over_floor(hit));
+    light = mix(light, floor_seen, smoothstep(0.02, -0.10, r.z));
+
+    // The nearest wall on the way, looked for in a few steps.
+    for (var i = 4; 1 <= i; i--) {
+        let q = p + r * (0.22 * f32(i));
+        let inside = smoothstep(0.4, 0.6, walls_at(q.xy).y) * smoothstep(frame.sky.w, frame.sky.w - 0.08, q.z);
+        let brick = vec3(0.30, 0.12, 0.07) * (0.25 + 0.75 * clamp(q.z / max(frame.sky.w, 0.1), 0.0, 1.0));
+        light = mix(light, brick, inside * smoothstep(-0.05, 0.05, q.z));
+    }
+    return light;
+}
+
+@fragment
+fn fragment(in: Corner) -> Seen {
+    let ray = normalize(in.position - frame.eye.xyz);
+    let from_ball = frame.eye.xyz - frame.ball.xyz;
+    let nearest = -dot(from_ball, ray);
+    let radius = frame.ball.w;
+    let miss2 = dot(from_ball, from_ball) - nearest * nearest;
+    // How much of the pixel the ball covers; rays that just miss it show its outline.
+    let cover = clamp((radius - sqrt(max(miss2, 0.0))) / pixel_at(frame.ball.xyz) + 0.5, 0.0, 1.0);
+    if cover <= 0.0 {
+        discard;
+    }
+    let p = frame.eye.xyz + ray * (nearest - sqrt(max(radius * radius - miss2, 0.0)));
+    let n = normalize(p - frame.ball.xyz);
+    let v = -ray;
+    let nv = max(dot(n, v), 0.0);
+    let q = vec4(-frame.ball_rotation.xyz, frame.ball_rotation.w);
+    let b = n + 2.0 * cross(q.xyz, cross(q.xyz, n) + q.w * n);
+    let pixel = 0.75 * pixel_at(p) / (radius * max(nv, 0.25));
+
+    // Fields: the sign of x y z. Grooves: the three great circles. Inlays: around the six axes' ends.
     let fields = 0.5 + 0.5 * sided(b.x, pixel) * sided(b.y, pixel) * sided(b.z, pixel);
     let a = abs(b);
-    let nearest_seam = min(a.x, min(a.y, a.z));
+    let nearest_groove = min(a.x, min(a.y, a.z));
     let from_axis = acos(clamp(max(a.x, max(a.y, a.z)), 0.0, 1.0));
-    let seam = 1.0 - smoothstep(0.035 - pixel, 0.035 + pixel, nearest_seam);
-    let cap = 1.0 - smoothstep(0.27 - pixel, 0.27 + pixel, from_axis);
-    let cap_rim = cap * smoothstep(0.20 - pixel, 0.20 + pixel, from_axis);
-    // The caps on one axis are dark, on the other two light: no two turns look the same.
-    let is_dark_cap = select(0.0, 1.0, a.z < max(a.x, a.y) && a.y < a.x);
-    let ivory = vec3(0.86, 0.80, 0.68);
-    let cobalt = vec3(0.018, 0.075, 0.33);
-    var colour = mix(cobalt, ivory, fields);
-    colour = mix(colour, mix(ivory, cobalt, is_dark_cap), cap);
-    let gold = clamp(max(seam * (1.0 - cap), cap_rim), 0.0, 1.0);
-    colour = mix(colour, vec3(0.25, 0.15, 0.04), gold);
-    let f0 = mix(vec3(0.05), vec3(0.95, 0.68, 0.28), gold);
-    let roughness = mix(0.16, 0.28, gold);
+    let inlay = 1.0 - smoothstep(0.30 - pixel, 0.30 + pixel, from_axis);
+    let rim = inlay * smoothstep(0.25 - pixel, 0.25 + pixel, from_axis);
+    let groove = max((1.0 - smoothstep(0.022 - pixel, 0.022 + pixel, nearest_groove)) * (1.0 - inlay), rim);
+    // The inlays on one axis are blued steel, on the other two brass: no two turns look the same.
+    let is_blue = select(0.0, 1.0, a.z < max(a.x, a.y) && a.y < a.x);
+
+    let steel = vec3(0.68, 0.69, 0.71);
+    let metal = mix(steel, mix(vec3(0.91, 0.66, 0.27), vec3(0.10, 0.17, 0.42), is_blue), inlay);
+    let satin = (1.0 - fields) * (1.0 - inlay);
+    let f0 = metal * (1.0 - 0.75 * groove);
+    let roughness = mix(0.16, 0.42, satin);
 
     let crowd = walls_at(p.xy).x;
     let openness = 1.0 - clamp(1.2 * crowd, 0.0, 0.6);
     // The floor takes the sky from the ball's lower half.
     let occlusion = mix(0.35, 1.0, smoothstep(-1.0, 0.5, n.z)) * mix(openness, 1.0, smoothstep(0.0, 0.9, n.z));
-    let finish = Finish(colour, roughness, f0, occlusion);
     let sunlight = sun_over_walls(p, n);
-    let nl = max(dot(n, frame.sun.xyz), 0.0);
-    let diffuse = colour * (SUN_LIGHT * (nl * sunlight) / 2.2 + ambient(n) * occlusion) * (1.0 - 0.8 * gold);
-
-    // The room in the lacquer: sky above, the wooden floor below, walls where the way to the floor ends in one.
     let r = reflect(-v, n);
-    let below = smoothstep(0.05, -0.12, r.z);
-    let reach = (frame.ball.z - frame.ball.w - p.z) / min(r.z, -0.08);
-    let hit = p.xy + r.xy * max(reach, 0.0);
-    let floor_light = frame.floor.rgb * 0.85 * (1.0 - clamp(1.5 * walls_at(hit).x, 0.0, 0.8));
-    var room = mix(sky(r), floor_light, below);
-    // A window of soft light, seen beside the sun's glint.
-    let side = normalize(cross(frame.up.xyz, frame.sun.xyz));
-    let along = normalize(cross(frame.sun.xyz, side));
-    let w = vec2(dot(r, side), dot(r, along)) / max(dot(r, frame.sun.xyz), 1e-3);
-    let pane = smoothstep(0.42, 0.34, abs(w.x)) * smoothstep(0.42, 0.34, abs(w.y));
-    let lit_side = select(0.0, 1.0, 0.0 < dot(r, frame.sun.xyz));
-    room += vec3(1.5, 1.4, 1.25) * pane * lit_side;
-    let mirrored = room * fresnel(f0, max(dot(n, v), 0.0)) * mix(0.6, 1.0, openness);
-    let sun_glint = min(glint(n, v, roughness, f0) * SUN_LIGHT * sunlight, vec3(3.0));
-    return picture(diffuse + mirrored + sun_glint);
+    // Satin scatters: what it shows is the mean of much of the room.
+    let scattered = 0.62 * (ambient(n) + SUN_LIGHT * (max(dot(n, frame.sun.xyz), 0.0) * sunlight / 2.8)) * occlusion;
+    let polished = mirrored_room(p, r) * mix(0.75, 1.0, occlusion);
+    let seen = mix(polished, scattered, 0.9 * satin) * fresnel(f0, nv);
+    let sun_glint = min(glint(n, v, roughness, f0) * SUN_LIGHT * sunlight, vec3(4.0));
+    let clip = frame.clip_from_maze * vec4(p, 1.0);
+    return Seen(vec4(picture(seen + sun_glint).rgb, cover), clip.z / clip.w);
 }

@@ -4,8 +4,8 @@ struct Frame {
     clip_from_maze: mat4x4<f32>,
     maze_from_clip: mat4x4<f32>,
     sun_clip_from_maze: mat4x4<f32>,
-    eye: vec4<f32>,           // position; unused
-    sun: vec4<f32>,           // unit, towards the sun; unused
+    eye: vec4<f32>,           // position; two over the picture's width
+    sun: vec4<f32>,           // unit, towards the sun; two over the picture's height
     up: vec4<f32>,            // unit, up in the world; depth of the table below the origin
     sky: vec4<f32>,           // unit, towards the brightest sky; height of the walls
     ball: vec4<f32>,          // centre; radius
@@ -20,3 +20,10 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
+
+// Width of a pixel at p, across the line of sight (maze units).
+fn pixel_at(p: vec3<f32>) -> f32 {
+    let m = frame.clip_from_maze;
+    let depth = dot(vec4(m[0].w, m[1].w, m[2].w, m[3].w), vec4(p, 1.0));
+    return frame.eye.w * depth / length(vec3(m[0].x, m[1].x, m[2].x));
+}

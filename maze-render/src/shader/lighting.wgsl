@@ -4,8 +4,9 @@
 @group(1) @binding(1) var sun_sampler: sampler_comparison;
 @group(1) @binding(2) var occlusion_map: texture_2d<f32>;
 @group(1) @binding(3) var occlusion_sampler: sampler;
+@group(1) @binding(4) var floor_light: texture_2d<f32>;
 
-// Looks at the sun's map along each side of a soft edge.
+// Looks at the sun's map along each side of a soft edge; with none, the map of the floor's light is asked instead.
 override sun_looks: i32 = 3;
 
 const PI = 3.14159265;
@@ -33,6 +34,10 @@ fn walls_at(p: vec2<f32>) -> vec2<f32> {
 
 // 1 in the sun, 0 behind a wall: a square of looks at the sun's map, heavier in the middle, each the mean of four texels.
 fn sun_over_walls(p: vec3<f32>, n: vec3<f32>) -> f32 {
+    if sun_looks == 0 {
+        let floor = p.xy - frame.sun.xy * (p.z / max(frame.sun.z, 0.1));
+        return textureSampleLevel(floor_light, occlusion_sampler, floor * frame.occlusion.xy + frame.occlusion.zw, 0.0).r;
+    }
     let clip = frame.sun_clip_from_maze * vec4(p + n * frame.shadow.z, 1.0);
     let uv = vec2(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
     let last = 0.5 * f32(sun_looks - 1);
@@ -94,10 +99,36 @@ struct Finish {
     occlusion: f32, // the sky's part that reaches the surface
 }
 
-fn lit(p: vec3<f32>, n: vec3<f32>, v: vec3<f32>, finish: Finish, sunlight: f32) -> vec3<f32> {
+fn without_glint(n: vec3<f32>, v: vec3<f32>, finish: Finish, sunlight: f32) -> vec3<f32> {
     let nl = max(dot(n, frame.sun.xyz), 0.0);
     let diffuse = finish.colour * (SUN_LIGHT * (nl * sunlight) / 2.2 + ambient(n) * finish.occlusion);
     let mirrored = sky(reflect(-v, n)) * fresnel(finish.f0, dot(n, v)) * (1.0 - finish.roughness) * finish.occlusion;
-    return diffuse + glint(n, v, finish.roughness, finish.f0) * SUN_LIGHT * sunlight + mirrored;
+    return diffuse + mirrored;
 }
 
+fn lit(p: vec3<f32>, n: vec3<f32>, v: vec3<f32>, finish: Finish, sunlight: f32) -> vec3<f32> {
+    let mirrored_sun = glint(n, v, finish.roughness, finish.f0) * SUN_LIGHT * sunlight;
+    return without_glint(n, v, finish, sunlight) + mirrored_sun;
+}
+
+
+// The sky's part that the walls leave to the floor.
+fn sky_over_floor(p: vec2<f32>) -> f32 {
+    return 1.0 - clamp(1.35 * walls_at(p).x, 0.0, 0.8);
+}
+
+// 1 at a wall's foot, 0 at its top.
+fn wall_foot(p: vec3<f32>) -> f32 {
+    return 1.0 - clamp(p.z / max(frame.sky.w, 1e-3), 0.0, 1.0);
+}
+
+// Grime where the floor meets the wall.
+fn wall_tint(foot: f32) -> f32 {
+    return 1.25 - 0.4 * foot * foot * foot;
+}
+
+const RIM_TINT = 0.62;
+
+fn rim_occlusion(p: vec3<f32>) -> f32 {
+    return 0.55 + 0.45 * smoothstep(-0.4, 0.0, p.z);
+}

@@ -34,3 +34,12 @@ fn picture(light: vec3<f32>) -> vec4<f32> {
     return vec4(colour, 1.0);
 }
 
+
+// For colours that are in sRGB already.
+fn from_encoded(colour: vec3<f32>) -> vec3<f32> {
+    if encode_srgb {
+        return colour;
+    }
+    let c = clamp(colour, vec3(0.0), vec3(1.0));
+    return select(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, c <= vec3(0.04045));
+}

@@ -120,6 +120,8 @@ impl Board {
             start: Marker { position: [x, y], radius: 0.42 },
             goal: Marker { position: self.cell(self.n_cells[0] - 1, self.n_cells[1] - 1), radius: 0.45 },
             goal_glow: 0.5,
+            lines: vec![],
+            patches: vec![],
         }
     }
 }

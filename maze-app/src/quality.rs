@@ -1,0 +1,28 @@
+//! How good the picture is to be, as chosen on the command line.
+
+use clap::ValueEnum;
+use maze_render::{Gpu, Quality};
+
+/// A tier, or the one that suits the adapter.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum QualityChoice {
+    /// What the graphics adapter is fast enough for
+    Auto,
+    /// For drivers that draw with the processor
+    Low,
+    /// For graphics built into the processor
+    Medium,
+    /// For graphics cards
+    High,
+}
+
+impl QualityChoice {
+    pub(crate) fn on(self, gpu: &Gpu) -> Quality {
+        match self {
+            Self::Auto => Quality::for_adapter(&gpu.adapter_info),
+            Self::Low => Quality::Low,
+            Self::Medium => Quality::Medium,
+            Self::High => Quality::High,
+        }
+    }
+}
