@@ -1,11 +1,16 @@
 //! Wavefront OBJ (B1 of the Advanced Visualizer's manual, 1995): the polygons of it, and nothing else.
 //!
-//! Of every line only the corners' positions count. A general reader would also look at normals, materials and groups,
-//! refuse a good maze for a fault in them, and take several times the memory.
+//! tobj reads the vertices and faces. What it gets is checked and cleaned line by line in `clean`, so that no fault in
+//! normals, materials or names makes it refuse a good maze, and every fault that counts is told with its line.
+
+mod clean;
 
 use crate::polygons::PolygonMesh;
+use clean::{Counts, Faces, LineReader, Lines, found, vertices};
 use nalgebra::Vector3;
-use std::borrow::Cow;
+use std::io::BufReader;
+use std::path::Path;
+use tobj::{LoadError, LoadOptions, Model};
 
 /// Why bytes are no OBJ.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -78,6 +83,9 @@ pub enum ObjError {
     /// More than can be counted in 32 bits.
     #[error("too many vertices or corners: expected fewer than 2^32 of each")]
     TooMany,
+    /// Anything else that the reader refuses.
+    #[error("not a Wavefront OBJ: {0}")]
+    Reader(String),
 }
 
 /// Most corners of a face: cutting a larger one into triangles takes seconds, and no wall has as many.
@@ -89,7 +97,8 @@ const MAX_REPEATS: usize = 4;
 
 /// Polygons of an OBJ file; objects and groups are joined; lines, points, curves, normals and materials are not looked at.
 ///
-/// A face of fewer than three corners is kept as it is: some programs write loose edges so, and it has no area.
+/// A face of fewer than three corners is kept as it is: some programs write loose edges so, and it has no area. Positions
+/// are those that faces use; in a large file some come more than once.
 ///
 /// # Errors
 /// Bytes that are not an OBJ, with the line where there is one.
@@ -112,40 +121,46 @@ pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
             found: lines.find(|line| !line.trim().is_empty()).unwrap_or_default(),
         });
     }
-    let mut positions = Vec::with_capacity(counts.n_vertices);
-    for line in Lines::new(text).filter(|line| line.keyword() == b"v") {
-        positions.push(vertex(&line)?);
-    }
-    let mut mesh = PolygonMesh::new(positions).ok_or(ObjError::TooMany)?;
-    if u32::try_from(counts.n_corners).is_err() {
+    if u32::try_from(counts.n_vertices).is_err() || u32::try_from(counts.n_corners).is_err() {
         return Err(ObjError::TooMany);
     }
+    let mut lines = LineReader::new(vertices(text).chain(Faces::new(text, &counts)));
+    let no_materials = |_: &Path| Err(LoadError::OpenFileFailed);
+    let loaded = tobj::load_obj_buf(&mut BufReader::new(&mut lines), &LoadOptions::default(), no_materials);
+    match (lines.fault, loaded) {
+        (Some(fault), _) => Err(fault),
+        (None, Ok((models, _))) => joined(models, &counts).ok_or(ObjError::TooMany),
+        (None, Err(error)) => Err(ObjError::Reader(error.to_string())),
+    }
+}
+
+/// All models in one mesh; `None` where 32 bits cannot count its positions or corners.
+fn joined(models: Vec<Model>, counts: &Counts) -> Option<PolygonMesh> {
+    let n_positions = models.iter().map(|model| model.mesh.positions.len() / 3).sum();
+    let mut positions = Vec::with_capacity(n_positions);
+    let mut faces = Vec::with_capacity(models.len());
+    for model in models {
+        // A model counts its own positions from 0.
+        faces.push((u32::try_from(positions.len()).ok()?, model.mesh.indices, model.mesh.face_arities));
+        let own = model.mesh.positions.chunks_exact(3);
+        positions.extend(own.map(|position| Vector3::new(position[0], position[1], position[2])));
+    }
+    let mut mesh = PolygonMesh::new(positions)?;
     mesh.reserve(counts.n_faces, counts.n_corners);
-    let (mut n_so_far, mut last_used, mut corners) = (0, 0, Vec::new());
-    for line in Lines::new(text) {
-        match line.keyword() {
-            b"v" => n_so_far += 1,
-            b"f" | b"fo" => {
-                face(&line, [n_so_far, counts.n_vertices], &mut corners)?;
-                let cut_off = || ObjError::CutOff { line: line.number };
-                if corners.len() < 3 && line.number == counts.n_lines && !text.ends_with(b"\n") {
-                    return Err(cut_off());
-                }
-                for corner in &corners {
-                    last_used = if last_used <= *corner { *corner + 1 } else { last_used };
-                }
-                // Every corner was checked against the number of positions.
-                if !mesh.push_face(&corners) {
-                    return Err(ObjError::TooMany);
-                }
-            }
-            _ => {}
+    for (first_position, mut corners, mut arities) in faces {
+        corners.iter_mut().for_each(|corner| *corner += first_position);
+        if arities.is_empty() {
+            // A model of triangles alone comes without.
+            arities = vec![3; corners.len() / 3];
+        }
+        let mut rest = &corners[..];
+        for arity in arities {
+            let (face, tail) = rest.split_at_checked(arity as usize)?;
+            rest = tail;
+            mesh.push_face(face).then_some(())?;
         }
     }
-    match counts.is_cut_off(text, counts.n_vertices - last_used as usize) {
-        true => Err(ObjError::CutOff { line: counts.n_lines }),
-        false => Ok(mesh),
-    }
+    Some(mesh)
 }
 
 /// Text in UTF-16, as some shells write what a program prints; known by its byte order mark.
@@ -174,181 +189,6 @@ fn binary_kind(bytes: &[u8]) -> &'static str {
         (b"Kaydara", "; it begins like an FBX"),
     ];
     kinds.iter().find(|(magic, _)| bytes.starts_with(magic)).map_or("", |(_, kind)| kind)
-}
-
-/// A line, joined with those that it says it goes on in.
-struct Line<'a> {
-    number: usize, // counted from 1
-    content: Cow<'a, [u8]>,
-}
-
-/// The words of a line up to a comment.
-fn words(content: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let code = content.split(|byte| *byte == b'#').next().unwrap_or_default();
-    code.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
-}
-
-/// A line for a message: shortened, and in whatever encoding.
-fn found(content: &[u8]) -> String {
-    String::from_utf8_lossy(content).trim_end().chars().take(60).collect()
-}
-
-impl Line<'_> {
-    /// Its first word; nothing for a comment.
-    fn keyword(&self) -> &[u8] {
-        words(&self.content).next().unwrap_or_default()
-    }
-
-    /// What comes after the first word.
-    fn arguments(&self) -> impl Iterator<Item = &[u8]> {
-        words(&self.content).skip(1)
-    }
-}
-
-/// Every line of a file.
-struct Lines<'a> {
-    rest: &'a [u8],
-    line_end: u8,
-    number: usize,
-}
-
-impl<'a> Lines<'a> {
-    fn new(text: &'a [u8]) -> Self {
-        // Line ends of old Macintoshes are a carriage return alone.
-        let line_end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
-        Self { rest: text, line_end, number: 0 }
-    }
-
-    /// Up to the next line end, which is left out.
-    fn next_raw(&mut self) -> Option<&'a [u8]> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        self.number += 1;
-        let end = self.rest.iter().position(|byte| *byte == self.line_end).unwrap_or(self.rest.len());
-        let line = &self.rest[..end];
-        self.rest = self.rest.get(end + 1..).unwrap_or_default();
-        Some(line)
-    }
-}
-
-/// A vertex or face that goes on in the next line, without the backslash that says so. Comments do not: some end with the
-/// path of a Windows directory.
-fn unfinished(line: &[u8]) -> Option<&[u8]> {
-    let line = line.trim_ascii_end().strip_suffix(b"\\")?;
-    matches!(words(line).next(), Some(b"v" | b"f" | b"fo")).then_some(line)
-}
-
-impl<'a> Iterator for Lines<'a> {
-    type Item = Line<'a>;
-
-    fn next(&mut self) -> Option<Line<'a>> {
-        let line = self.next_raw()?;
-        let number = self.number;
-        let Some(begun) = unfinished(line) else { return Some(Line { number, content: line.into() }) };
-        let mut content = begun.to_vec();
-        while let Some(line) = self.next_raw() {
-            content.push(b' ');
-            let trimmed = line.trim_ascii_end();
-            let Some(more) = trimmed.strip_suffix(b"\\") else {
-                content.extend_from_slice(trimmed);
-                break;
-            };
-            content.extend_from_slice(more);
-        }
-        Some(Line { number, content: content.into() })
-    }
-}
-
-/// Three finite numbers; a weight or colours after them are ignored.
-fn vertex(line: &Line) -> Result<Vector3<f64>, ObjError> {
-    let mut position = Vector3::zeros();
-    let mut numbers = line.arguments();
-    for value in position.iter_mut() {
-        let number = numbers.next().and_then(|word| std::str::from_utf8(word).ok()?.parse().ok());
-        *value = number
-            .filter(|value: &f64| value.is_finite())
-            .ok_or_else(|| ObjError::Vertex { line: line.number, found: found(&line.content) })?;
-    }
-    Ok(position)
-}
-
-/// The corners of a face, counted from 0. Indices count from 1 in the whole file, or back from the vertices so far.
-fn face(line: &Line, [n_so_far, n_vertices]: [usize; 2], corners: &mut Vec<u32>) -> Result<(), ObjError> {
-    corners.clear();
-    for word in line.arguments() {
-        let vertex = word.split(|byte| *byte == b'/').next().unwrap_or_default();
-        let index: Option<i64> = std::str::from_utf8(vertex).ok().and_then(|word| word.parse().ok());
-        let index = index.ok_or_else(|| ObjError::Face { line: line.number, found: found(&line.content) })?;
-        let distance = usize::try_from(index.unsigned_abs()).ok();
-        let absolute = match distance {
-            Some(back) if index < 0 => n_so_far.checked_sub(back),
-            Some(count) => count.checked_sub(1).filter(|corner| *corner < n_vertices),
-            None => None,
-        };
-        let absolute = absolute.and_then(|corner| u32::try_from(corner).ok());
-        corners.push(absolute.ok_or(ObjError::VertexOutOfRange { line: line.number, index, n_vertices })?);
-    }
-    if MAX_CORNERS < corners.len() {
-        return Err(ObjError::Corners { line: line.number, n_corners: corners.len() });
-    }
-    match named_too_often(corners) {
-        Some(vertex) => Err(ObjError::Repeated { line: line.number, vertex }),
-        None => Ok(()),
-    }
-}
-
-/// A corner, counted from 1, that a face names more than [`MAX_REPEATS`] times.
-fn named_too_often(corners: &[u32]) -> Option<usize> {
-    if corners.len() <= MAX_REPEATS {
-        return None;
-    }
-    let mut sorted = corners.to_vec();
-    sorted.sort_unstable();
-    sorted.chunk_by(|a, b| a == b).find(|same| MAX_REPEATS < same.len()).map(|same| same[0] as usize + 1)
-}
-
-/// Part of a file's vertices, at its end, that may be without a face in a whole file.
-const MAX_UNUSED_PART: f64 = 0.05;
-
-/// How much of everything a file holds, so that room is made once.
-#[derive(Default)]
-struct Counts {
-    n_lines: usize,
-    n_vertices: usize,
-    n_faces: usize,
-    n_corners: usize,
-    /// Lines, points, curves: vertices behind the last face may be theirs.
-    n_others: usize,
-}
-
-impl Counts {
-    fn of(text: &[u8]) -> Self {
-        let mut counts = Self::default();
-        for line in Lines::new(text) {
-            counts.n_lines = line.number;
-            match line.keyword() {
-                b"v" => counts.n_vertices += 1,
-                b"f" | b"fo" => {
-                    counts.n_faces += 1;
-                    counts.n_corners += line.arguments().count();
-                }
-                b"l" | b"p" | b"curv" | b"surf" => counts.n_others += 1,
-                _ => {}
-            }
-        }
-        counts
-    }
-
-    /// Whether a file that could be read is only the beginning of one: faces for many of its last vertices are missing, or
-    /// for any of them where the last line does not end either (many good files lack the last line break, so that alone
-    /// says nothing).
-    fn is_cut_off(&self, text: &[u8], n_unused: usize) -> bool {
-        #[allow(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 vertices")]
-        let unused_part = n_unused as f64 / self.n_vertices as f64;
-        let suspicious = if text.ends_with(b"\n") { MAX_UNUSED_PART < unused_part } else { 0 < n_unused };
-        0 < self.n_faces && suspicious && self.n_others == 0
-    }
 }
 
 #[cfg(test)]
@@ -467,6 +307,24 @@ mod tests {
     fn an_edge_written_as_a_face_is_kept_and_has_no_area() {
         let mesh = read(format!("{SQUARE}f 1 2\nf 1 2 3 4\n").as_bytes()).unwrap();
         assert_eq!(mesh.faces().map(<[u32]>::len).collect::<Vec<_>>(), [2, 4]);
+    }
+
+    #[test]
+    fn a_file_too_large_for_one_object_is_one_mesh() {
+        // Vertices may come after the faces that name them; triangles alone are told apart from other polygons.
+        let triangles = "f 2 3 4\n".repeat(40_000);
+        let others = "f 4 3 2 1\nf 2 1\nf\n".repeat(30_000);
+        let mesh = read(format!("{triangles}{SQUARE}{others}").as_bytes()).unwrap();
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
+        let [a, b, c, d] = square;
+        let expected: [&[Vector3<f64>]; 4] = [&[b, c, d], &[d, c, b, a], &[b, a], &[]];
+        let faces = std::iter::repeat_n(expected[0], 40_000)
+            .chain(std::iter::repeat_n(&expected[1..], 30_000).flatten().copied());
+        assert_eq!(mesh.n_faces(), 130_000);
+        for (face, expected) in mesh.faces().zip(faces) {
+            assert!(face.iter().map(|&corner| &mesh.positions()[corner as usize]).eq(expected));
+        }
+        assert!(square.len() < mesh.positions().len() && mesh.positions().len() < 16, "some objects");
     }
 
     #[test]
