@@ -94,6 +94,76 @@ pub(crate) fn textures(flag: Option<&Path>, maze: Option<&Path>) -> Result<Textu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::collection::vec;
+    use proptest::prelude::*;
+
+    /// Pieces of a sidecar in any order: nearer to one than any characters are.
+    fn pieces() -> impl Strategy<Value = String> {
+        const KNOWN: [&str; 28] = [
+            "up = ",
+            "scale = ",
+            "ball_radius = ",
+            "start = [",
+            "goal = [",
+            "textures = ",
+            "colour = ",
+            "up = 'z'\n",
+            "scale = 2\n",
+            "goal = [1, -2.5]\n",
+            "=",
+            "\n",
+            "\r\n",
+            "[",
+            "]",
+            ", ",
+            "'z'",
+            "\"y\"",
+            "0.3",
+            "-1",
+            "inf",
+            "nan",
+            "1e999",
+            "true",
+            "#",
+            "{",
+            "}",
+            " ",
+        ];
+        let piece = prop_oneof![
+            9 => proptest::sample::select(&KNOWN[..]).prop_map(str::to_owned),
+            1 => any::<String>(),
+        ];
+        vec(piece, 0..30).prop_map(|pieces| pieces.concat())
+    }
+
+    /// Nothing panics, what is read is in range, and what is not is told in a line, with a line that is there.
+    fn is_read_or_told(text: &str) {
+        match Sidecar::parse(text) {
+            Ok(sidecar) => {
+                assert!(sidecar.scale.is_none_or(|scale| scale.is_finite() && 0.0 < scale));
+                let mut points = [sidecar.start, sidecar.goal].into_iter().flatten();
+                assert!(points.all(|point| point.iter().all(|value| value.is_finite())));
+            }
+            Err((line, reason)) => {
+                assert!((1..=text.split('\n').count()).contains(&line), "{text:?}: line {line}");
+                assert!(!reason.is_empty() && !reason.contains('\n'), "{text:?}: {reason:?}");
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+        #[test]
+        fn any_bytes_are_read_or_told(bytes in vec(any::<u8>(), 0..200)) {
+            is_read_or_told(&String::from_utf8_lossy(&bytes));
+        }
+
+        #[test]
+        fn any_pieces_are_read_or_told(text in pieces()) {
+            is_read_or_told(&text);
+        }
+    }
 
     #[test]
     fn everything_may_be_said() {
