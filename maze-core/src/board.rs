@@ -52,7 +52,8 @@ impl Covers {
     pub(crate) fn new(survey: &Survey, section: &Section) -> Self {
         let [n_x, n_y] = section.n_cells();
         let [mut topped, mut lidded, mut floored] = [0; 3].map(|_| vec![false; n_x * n_y]);
-        let (mut n_looks, mut roof) = (0, (0, 0.0));
+        let (mut n_looks, mut roof) = (0_usize, (0, 0.0));
+        let mut crossings = Vec::new();
         let tops_from = survey.tops_from();
         survey.each(|kind, corners| {
             let is_high = corners.iter().all(|corner| tops_from < corner.z);
@@ -64,18 +65,18 @@ impl Covers {
             };
             let columns = within(&section.xs, corners.iter().map(|corner| corner.x));
             let rows = within(&section.ys, corners.iter().map(|corner| corner.y));
-            n_looks += columns.len() * rows.len();
+            n_looks = n_looks.saturating_add(columns.len() * rows.len());
             if MAX_LOOKS < n_looks {
                 return;
             }
             let mut is_over_free = false;
             for j in rows {
+                cross(corners, (section.ys[j] + section.ys[j + 1]) / 2.0, &mut crossings);
                 for i in columns.clone() {
-                    let middle = Vector2::new(
-                        (section.xs[i] + section.xs[i + 1]) / 2.0,
-                        (section.ys[j] + section.ys[j + 1]) / 2.0,
-                    );
-                    if holds(corners, middle) {
+                    let middle = (section.xs[i] + section.xs[i + 1]) / 2.0;
+                    let n_left = crossings.partition_point(|x| *x <= middle);
+                    // Inside of a polygon an odd number of its sides lies to the right.
+                    if (crossings.len() - n_left) % 2 == 1 {
                         cover[j * n_x + i] = true;
                         is_over_free |= !section.is_solid(i, j);
                     }
@@ -155,13 +156,14 @@ fn within(coordinates: &[f64], values: impl Iterator<Item = f64> + Clone) -> std
     first.saturating_sub(1)..last
 }
 
-/// Whether a point of the plan lies in a polygon seen from above (by crossings to the right).
-fn holds(corners: &[Vector3<f64>], point: Vector2<f64>) -> bool {
+/// Where a polygon seen from above crosses a line along x: ascending. Once a row and not once a cell, because a polygon may
+/// have thousands of corners.
+fn cross(corners: &[Vector3<f64>], y: f64, crossings: &mut Vec<f64>) {
     let next = corners.iter().cycle().skip(1);
-    let crossed = corners.iter().zip(next).filter(|(a, b)| {
-        (a.y <= point.y) != (b.y <= point.y) && point.x < a.x + (b.x - a.x) * ((point.y - a.y) / (b.y - a.y))
-    });
-    crossed.count() % 2 == 1
+    let sides = corners.iter().zip(next).filter(|(a, b)| (a.y <= y) != (b.y <= y));
+    crossings.clear();
+    crossings.extend(sides.map(|(a, b)| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))));
+    crossings.sort_unstable_by(f64::total_cmp);
 }
 
 /// The board in maze units; `section` is the plan in these.
