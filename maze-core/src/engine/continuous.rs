@@ -31,7 +31,8 @@ struct Support {
     corner: Option<Pivot>,
 }
 
-/// The exact engine. Its motion does not depend on the tick's length, nor its cost on the speed.
+/// The exact engine. Its motion does not depend on the tick's length (but for rolling resistance, which is taken at the end
+/// of each tick), nor its cost on the speed.
 #[derive(Clone, Debug)]
 pub struct Continuous {
     planes: Arc<SortedPlanes>,
@@ -47,7 +48,8 @@ impl Continuous {
     /// A ball among planes; `tick_s` is the length of a tick (s).
     ///
     /// # Errors
-    /// A position, velocity or tick length that is not finite; a tick length that is not greater than 0.
+    /// A position, velocity or tick length that is not finite; a tick length that is not greater than 0; a restitution or
+    /// rolling factor outside 0 to 1; a negative or infinite rolling resistance.
     pub fn new(
         planes: Arc<SortedPlanes>,
         spec: BallSpec,

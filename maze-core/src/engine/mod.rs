@@ -79,7 +79,7 @@ pub trait Engine {
     /// Advances by one tick under a constant acceleration in the maze plane (units/s²).
     ///
     /// # Errors
-    /// An acceleration that is not finite; the ball stays as it was.
+    /// An acceleration that is not finite, or one that makes the velocity so; the ball stays as it was.
     fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange>;
 
     /// [`Engine::tick`] that also shows each hit as it happens. An engine that cannot tell shows none.

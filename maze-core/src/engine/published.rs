@@ -34,7 +34,8 @@ impl Published {
     /// A ball among planes.
     ///
     /// # Errors
-    /// A position or velocity that is not finite; a restitution or rolling factor outside 0 to 1.
+    /// A position or velocity that is not finite; a restitution or rolling factor outside 0 to 1; a negative or infinite
+    /// rolling resistance.
     pub fn new(planes: Arc<SortedPlanes>, spec: BallSpec, ball: Ball) -> Result<Self, OutOfRange> {
         Ok(Self { planes, spec: spec.checked()?, ball: ball.checked()? })
     }
