@@ -6,7 +6,7 @@
 //!   of the board towards the player. Walls rise along +z.
 //! - **World frame**: +z is up, so gravity is (0, 0, -9.81). An orientation `world_from_maze` turns maze coordinates into
 //!   world coordinates.
-//! - **Units**: the commonest corridor is 1 maze unit wide; seconds; hence g = 9.81 units/s².
+//! - **Units**: a corridor (of the common widths the narrowest) is 1 maze unit wide; seconds; hence g = 9.81 units/s².
 //! - **Ball**: a circle in the maze plane, held on the floor. That z is trivial is the method's central relaxation.
 //! - **Ranges**: everything is `f64` and must be finite; what is not is refused.
 //!
