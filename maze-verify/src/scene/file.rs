@@ -214,7 +214,8 @@ fn walls_from(
         }
         (None, Some(maze)) => {
             let MazeToml { width, height, seed } = *maze.get_ref();
-            let good = 1 <= width && 1 <= height && 2 <= width * height && width <= 100 && height <= 100;
+            let fits = |side: usize| (1..=100).contains(&side);
+            let good = fits(width) && fits(height) && 2 <= width * height;
             place.expect(good, maze.span(), "maze: expected 2 cells or more and at most 100 on a side")?;
             Ok(Walls::Generated(Recipe::new(width, height, Algorithm::Backtracker, seed)))
         }
@@ -367,6 +368,7 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
             ("[0, 0, 1, 5]", "[1, 0, 0, 5]", 7, "walls"),
             ("[0.03, 0.01]", "[]", 6, "ticks_s"),
             ("maze = { width = 5,", "maze = { width = 0,", 15, "maze"),
+            ("maze = { width = 5,", "maze = { width = 9223372036854775807,", 15, "maze"),
             ("name = \"maze\"", "name = \"a b\"", 13, "name"),
         ] {
             let error = read(&GOOD.replace(from, to)).unwrap_err();
