@@ -169,7 +169,10 @@ impl Maze {
         let mut first_error = None;
         for axis in axes {
             match Self::standing(mesh, axis, options, tell) {
-                // What the user asked for holds for this axis; without asking, another one is no answer.
+                // What the user asked for is meant for the axis that stands first: no other one is an answer to it.
+                Err(error @ (AssembleError::NotFree { .. } | AssembleError::Scale { .. })) => {
+                    return Err(error);
+                }
                 Err(error) => first_error = first_error.or(Some(error)),
                 maze => return maze,
             }

@@ -75,16 +75,8 @@ impl Path {
 
     /// Least and greatest coordinate along one axis between two times.
     fn range(&self, axis: usize, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
-        let (speed, pull) = (self.velocity[axis], self.acceleration[axis]);
-        let at = |time_s: f64| self.position[axis] + (speed + pull * (time_s / 2.0)) * time_s;
-        let ends = [at(from_s), at(to_s)];
-        let [mut low, mut high] = if ends[0] < ends[1] { ends } else { [ends[1], ends[0]] };
-        if (speed + pull * from_s) * (speed + pull * to_s) < 0.0 {
-            let turn = at(-speed / pull);
-            low = if turn < low { turn } else { low };
-            high = if high < turn { turn } else { high };
-        }
-        [low, high]
+        let rest = Self { position: self.at(from_s), velocity: self.velocity_at(from_s), ..*self };
+        rest.range_until(axis, to_s - from_s)
     }
 }
 

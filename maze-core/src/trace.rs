@@ -58,7 +58,7 @@ pub struct SearchTrace {
 /// [`impact::first`], and what it looked at.
 ///
 /// Bisections are shown in full, as the report draws them; the search itself begins each in a directory's bucket and comes
-/// to the same index.
+/// to the same index. Made for pictures: O(n) for each row that is looked into.
 pub fn search(planes: &SortedPlanes, path: &Path, radius: f64, until_s: f64) -> SearchTrace {
     let mut groups: Vec<GroupVisit> = Vec::new();
     let impact = impact::search(planes, path, radius, until_s, None, &mut |visit| match visit {

@@ -278,6 +278,19 @@ fn not_finite_input_is_refused_and_changes_nothing() {
     }
 }
 
+#[test]
+fn numbers_that_leave_the_range_within_a_tick_are_refused_and_change_nothing() {
+    // The square of 10^200 is not finite; 10^160 units/s for a second go as far.
+    for (velocity, tick_s) in [(1.0e200, 0.03), (1.0e160, 1.0)] {
+        let start = ball([0.0, 9.0], [velocity, 0.0]);
+        let mut engine = engine(&FLOOR, start, tick_s);
+        assert!(engine.tick(Vector2::zeros()).is_err());
+        assert_eq!(engine.ball(), start);
+    }
+    let planes = Arc::new(SortedPlanes::new(FLOOR).unwrap());
+    assert!(Continuous::new(planes, spec(E), ball([0.0, 9.0], [0.0, 0.0]), 1.0e6).is_err());
+}
+
 fn random_maze(seed: u64) -> Maze {
     let layout = layout::recursive_backtracker(8, 6, seed).unwrap();
     Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap()

@@ -33,6 +33,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::new(&arguments.maze)?;
+    if let Some(path) = &arguments.record {
+        files::expect_directory_of(path)?;
+    }
     let mut game = Game::new(source.load()?, arguments.engine)?;
     let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {

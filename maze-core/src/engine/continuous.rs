@@ -19,6 +19,9 @@ pub const REST_APEX: f64 = 1.0e-9;
 /// of 1e-6 has more, and the time that is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 256;
 
+/// Longest tick (s): a ball pressed onto a corner is followed in small steps for as long as a tick lasts.
+pub const MAX_TICK_S: f64 = 1000.0;
+
 /// Most walls a ball that starts inside of them is pushed out of, one after the other.
 const MAX_RECOVERIES: u32 = 16;
 
@@ -56,8 +59,9 @@ impl Continuous {
         ball: Ball,
         tick_s: f64,
     ) -> Result<Self, OutOfRange> {
-        if !tick_s.is_finite() || tick_s <= 0.0 {
-            return Err(OutOfRange { what: "the tick's length", expected: "a finite number greater than 0" });
+        if !(0.0 < tick_s && tick_s <= MAX_TICK_S) {
+            let expected = "seconds greater than 0, at most 1000";
+            return Err(OutOfRange { what: "the tick's length", expected });
         }
         let (spec, ball) = (spec.checked()?, ball.checked()?);
         Ok(Self { planes, spec, tick_s, ball, support: Support::default(), is_placed: true })
@@ -211,6 +215,19 @@ impl Continuous {
         roll.time_s
     }
 
+    /// Refuses what is not finite, and what would leave the range of numbers within the tick, squares included.
+    fn expect_finite_end(&self, acceleration: Vector2<f64>) -> Result<(), OutOfRange> {
+        let free = Path { position: self.ball.position, velocity: self.ball.velocity, acceleration };
+        let is_within = |vector: Vector2<f64>| vector.norm_squared().is_finite();
+        let (position, velocity) = (free.at(self.tick_s), free.velocity_at(self.tick_s));
+        match () {
+            () if !is_within(acceleration) => Err(OutOfRange::not_finite("the acceleration")),
+            () if !is_within(velocity) => Err(OutOfRange::not_finite("the ball's velocity")),
+            () if !is_within(position) => Err(OutOfRange::not_finite("the ball's position")),
+            () => Ok(()),
+        }
+    }
+
     /// Goes from event to event until the tick is over.
     fn pass(&mut self, acceleration: Vector2<f64>, log: &mut Log) {
         let mut left_s = self.tick_s;
@@ -272,16 +289,7 @@ impl Engine for Continuous {
         observer: &mut dyn FnMut(&Hit),
     ) -> Result<Tick, OutOfRange> {
         let acceleration = acceleration * self.spec.rolling;
-        let end = self.ball.velocity + acceleration * self.tick_s;
-        if !end.iter().all(|value| value.is_finite()) {
-            // Told apart as `Published` does.
-            let is_pull = acceleration.iter().all(|value| value.is_finite());
-            return Err(OutOfRange::not_finite(if is_pull {
-                "the ball's velocity"
-            } else {
-                "the acceleration"
-            }));
-        }
+        self.expect_finite_end(acceleration)?;
         let mut log = Log { tick: Tick { n_steps: 1, ..Tick::default() }, observer };
         if self.is_placed {
             self.recover(&mut log);

@@ -97,6 +97,9 @@ impl Engine for Published {
         if !is_finite(velocity) {
             return Err(OutOfRange::not_finite("the ball's velocity"));
         }
+        if !is_finite(self.ball.position + velocity * Self::TICK_S) {
+            return Err(OutOfRange::not_finite("the ball's position"));
+        }
         if self.spec.holds(self.ball.velocity, acceleration * self.spec.rolling, Self::TICK_S) {
             self.ball.velocity = Vector2::zeros();
             return Ok(Tick { n_steps: 1, ..Tick::default() });

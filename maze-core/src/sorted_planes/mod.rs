@@ -13,6 +13,9 @@ use std::ops::Range;
 /// Searches look this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
 pub(crate) const WIDENED: f64 = 1.0 + 1.0e-6;
 
+/// Most planes of one facing: their directories, at most four entries a plane, are counted in 32 bits.
+const MAX_PLANES: usize = 1 << 29;
+
 /// Part of a row that is wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Interval {
@@ -78,13 +81,13 @@ impl SortedPlanes {
     /// Sorts the planes and merges those of the same facing and offset that touch or overlap.
     ///
     /// # Errors
-    /// A plane with a coordinate that is not finite, or with no extent; more than 2³² planes of one facing.
+    /// A plane with a coordinate that is not finite, or with no extent; more than 2²⁹ planes of one facing.
     pub fn new(planes: impl IntoIterator<Item = Plane>) -> Result<Self, PlaneError> {
         let mut by_facing: [Vec<Plane>; 4] = Default::default();
         for (index, plane) in planes.into_iter().enumerate() {
             by_facing[plane.facing as usize].push(plane.checked(index)?);
         }
-        if by_facing.iter().any(|planes| u32::try_from(planes.len()).is_err()) {
+        if by_facing.iter().any(|planes| MAX_PLANES < planes.len()) {
             return Err(PlaneError::TooMany);
         }
         let mut sorted = Self { groups: by_facing.map(Group::new), has_free_ends: false };
