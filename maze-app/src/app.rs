@@ -10,7 +10,7 @@ use crate::demo::Demo;
 use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
-use crate::game::{EngineKind, Game, to_f32};
+use crate::game::{Game, to_f32};
 use crate::input::{self, Action, TiltControl};
 use crate::quality::QualityChoice;
 use crate::source::Source;
@@ -83,7 +83,6 @@ pub(crate) struct App {
     view: View,
     source: Source,
     labels: Labels,
-    engine: EngineKind,
     textures: TextureSet,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
@@ -128,7 +127,6 @@ impl App {
             labels: Labels::new(&setup.source, game.maze()),
             game,
             source: setup.source,
-            engine: setup.engine,
             textures: setup.textures,
             state_log_path: setup.state_log,
             state_log: None,
@@ -219,6 +217,7 @@ impl App {
             Action::ToggleHelp => self.help = !self.help,
             Action::ToggleFrames => self.shows_frames = !self.shows_frames,
             Action::ToggleFullscreen => self.graphics.iter().for_each(Graphics::toggle_fullscreen),
+            Action::NextGhost => self.game.next_ghost()?,
             Action::NextQuality => self.next_quality()?,
             Action::Screenshot => self.screenshot(),
             Action::Quit => event_loop.exit(),
@@ -246,7 +245,7 @@ impl App {
     /// Loads the source's maze when it has changed.
     fn load(&mut self, changed: bool) -> Result<(), Failure> {
         if changed {
-            self.game = Game::new(self.source.load()?, self.engine)?;
+            self.game = self.game.on(self.source.load()?)?;
             self.load_into_graphics()?;
             self.begin();
         }
@@ -265,7 +264,7 @@ impl App {
     /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
     fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
         let source = self.source.of_file(path);
-        match source.load().and_then(|maze| Game::new(maze, self.engine)) {
+        match source.load().and_then(|maze| self.game.on(maze)) {
             Ok(game) => {
                 (self.game, self.source) = (game, source);
                 self.load_into_graphics()?;
@@ -370,6 +369,7 @@ impl App {
             phase: self.game.phase(),
             n_ticks: self.game.n_ticks(),
             tick_s: self.game.tick_s(),
+            ghost: self.game.ghost(),
             labels: &self.labels,
             help: self.help,
             notice: notice.map(|(text, _)| text.as_str()),

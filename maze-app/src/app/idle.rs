@@ -25,6 +25,7 @@ struct Shown {
     size: [u32; 2],
     phase: Phase,
     n_ticks: u64,
+    ghost: Option<(&'static str, f64)>,
     help: bool,
     notice: Option<String>,
 }
@@ -37,6 +38,7 @@ impl Idle {
             size,
             phase: hud.phase,
             n_ticks: hud.n_ticks,
+            ghost: hud.ghost,
             help: hud.help,
             notice: hud.notice.map(str::to_owned),
         };
@@ -73,6 +75,7 @@ mod tests {
             phase: Phase::Ready,
             n_ticks,
             tick_s: 0.03,
+            ghost: None,
             labels: &labels,
             help: true,
             notice: None,
@@ -83,6 +86,7 @@ mod tests {
             camera: Camera { target: [0.0; 3], distance: 9.0 },
             world_from_maze: UnitQuaternion::identity(),
             ball: BallView { position: [0.0; 3], radius: 0.3, rotation: UnitQuaternion::identity() },
+            ghost: None,
             start: marker,
             goal: marker,
             goal_glow: 0.0,

@@ -4,10 +4,11 @@ use crate::app::{self, App, Options};
 use crate::clock::Clock;
 use crate::command::play::{Setup, parse_seconds};
 use crate::demo::Demo;
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
-use crate::game::{EngineKind, Game, to_f32};
+use crate::game::{Game, to_f32};
 use crate::plot;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
@@ -200,6 +201,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             phase: game.phase(),
             n_ticks: game.n_ticks(),
             tick_s: game.tick_s(),
+            ghost: game.ghost(),
             labels: &labels,
             help: true,
             notice: None,

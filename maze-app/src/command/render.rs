@@ -1,9 +1,10 @@
 //! `maze-app render`: one picture, no window.
 
 use crate::app::view::{ZOOM_RANGE, zoomed};
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{EngineKind, Game};
+use crate::game::Game;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
 use crate::sidecar;
@@ -48,6 +49,9 @@ pub(crate) struct Arguments {
     /// How the ball's motion is computed
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
+    /// Another engine's ball under the same tilt, as a ghost
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    ghost: Option<EngineKind>,
     /// How much is spent on the picture, which may take its time on any driver
     #[arg(long, value_enum, default_value_t = QualityChoice::High)]
     quality: QualityChoice,
@@ -83,6 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::known(&arguments.maze)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let mut game = Game::new(source.load()?, arguments.engine)?;
+    game.set_ghost(arguments.ghost)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;
     }

@@ -8,6 +8,8 @@ use maze_core::{Maze, Phase};
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
 pub(super) const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
 pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+/// As the ghost looks.
+const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
@@ -19,7 +21,7 @@ const SMALL: [f32; 2] = [520.0, 300.0];
 /// The list of keys in one line, with its margins (points).
 const KEYS_HEIGHT: f32 = 50.0;
 
-const KEYS: [(&str, &str); 13] = [
+const KEYS: [(&str, &str); 14] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
@@ -27,6 +29,7 @@ const KEYS: [(&str, &str); 13] = [
     ("R", "restart"),
     ("N", ""), // what it does depends on the maze
     ("PgUp / PgDn", "levels"),
+    ("G", "ghost"),
     ("Q", "quality"),
     ("F3", "frame times"),
     ("F11", "whole screen"),
@@ -40,6 +43,8 @@ pub(crate) struct Hud<'a> {
     pub(crate) phase: Phase,
     pub(crate) n_ticks: u64,
     pub(crate) tick_s: f64,
+    /// The ghost's engine, and how far it is from the ball (corridors).
+    pub(crate) ghost: Option<(&'static str, f64)>,
     pub(crate) labels: &'a Labels,
     pub(crate) help: bool,
     /// News of a moment.
@@ -147,6 +152,9 @@ impl Hud<'_> {
             });
             if self.phase == Phase::Ready {
                 ui.label(RichText::new("tilt the board to start").color(GOLD));
+            }
+            if let Some((engine, distance)) = self.ghost {
+                ui.label(RichText::new(format!("{engine}  {distance:.3} corridors away")).color(GHOST));
             }
         });
     }
