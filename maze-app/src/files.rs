@@ -37,6 +37,7 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
     };
     let mut written = Vec::with_capacity(outputs.len());
     for (path, bytes) in outputs {
+        expect_replaceable(path)?;
         written.push((path, temporary(path, bytes).map_err(|error| failed(path, error))?));
     }
     for (path, file) in written.into_iter().rev() {
@@ -81,6 +82,16 @@ fn temporary(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFi
     let mut file = file.tempfile_in(directory_of(path))?;
     file.write_all(bytes)?;
     Ok(file)
+}
+
+/// Checks that an output would not take the place of a device, a pipe or a directory.
+pub(crate) fn expect_replaceable(path: &Path) -> Result<(), Failure> {
+    match fs::metadata(path) {
+        Ok(metadata) if !metadata.is_file() => {
+            Err(Failure::in_file(path, "cannot write: is no ordinary file"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Where a file lies.

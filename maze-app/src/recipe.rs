@@ -8,23 +8,23 @@ use std::time::{SystemTime, UNIX_EPOCH};
 #[derive(Args, Clone, Debug)]
 pub(crate) struct RecipeArguments {
     /// Cells of a random maze
-    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT)]
+    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT, allow_hyphen_values = true)]
     size: GridSize,
     /// The same seed gives the same maze [default: a new one]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
     /// How it is made: backtracker, wilson, kruskal, prim, growing-tree or eller [default: backtracker; growing-tree with
     /// --elitism or --river]
     #[arg(long, value_name = "NAME", value_parser = parse_algorithm)]
     algorithm: Option<Algorithm>,
     /// Open dead ends with this probability, 0 to 1, so that there are loops
-    #[arg(long, value_name = "P", value_parser = parse_probability, default_value = "0")]
+    #[arg(long, value_name = "P", value_parser = parse_probability, default_value = "0", allow_negative_numbers = true)]
     braid: f64,
     /// How direct the solution is, 0 to 100 (growing-tree) [default: 0]
-    #[arg(long, value_name = "E", value_parser = parse_percentage)]
+    #[arg(long, value_name = "E", value_parser = parse_percentage, allow_negative_numbers = true)]
     elitism: Option<u8>,
     /// How few and how long the dead ends are, 0 to 100 (growing-tree) [default: 50]
-    #[arg(long, value_name = "R", value_parser = parse_percentage)]
+    #[arg(long, value_name = "R", value_parser = parse_percentage, allow_negative_numbers = true)]
     river: Option<u8>,
 }
 

@@ -1,7 +1,7 @@
 //! One JSON line a tick, for tests and for the curious.
 
 use crate::failure::Failure;
-use crate::files::plain;
+use crate::files::{self, plain};
 use serde::Serialize;
 use std::fs::File;
 use std::io::Write;
@@ -34,6 +34,7 @@ pub(crate) struct StateLog {
 
 impl StateLog {
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+        files::expect_replaceable(path)?;
         let file = File::create(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
         Ok(Self { file, path: path.to_path_buf() })
     }

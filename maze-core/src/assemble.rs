@@ -214,12 +214,16 @@ impl Maze {
         let bounds = Bounds { low, high };
         tell(Stage::Way);
         let ball_radius = options.ball_radius.unwrap_or(BallSpec::RADIUS);
+        // In corridors, which are 1 unit wide unless a scale was asked for.
+        let wide = options.scale.and_then(|scale| Radius::new(ball_radius.units() * scale * corridor));
+        let in_corridors = ball_radius.units();
+        let ball_radius = wide.unwrap_or(ball_radius);
         // What the ball does not fit through is a chink, not an opening.
         let mut openings = section.openings();
         openings.retain(|opening| 2.0 * ball_radius.units() <= opening.end - opening.start);
         let reach = Reach::new(&section, ball_radius.units());
         let way = Way::choose(&reach, &openings, ball_radius.units())
-            .ok_or(AssembleError::NoRoom { radius: ball_radius.units() })?
+            .ok_or(AssembleError::NoRoom { radius: in_corridors })?
             .moved(&reach, options.start, options.goal)
             .map_err(|place| AssembleError::NotFree { x: place.x, y: place.y })?;
         let wall_height = frame.z(survey.top_z);

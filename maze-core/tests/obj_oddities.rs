@@ -438,6 +438,13 @@ fn start_goal_and_scale_may_be_chosen() {
     }
     let wide = with(AssembleOptions { scale: Some(1.0), ..Default::default() }).unwrap();
     assert_eq!((wide.scale, wide.bounds.size()), (1.0, nalgebra::Vector2::new(9.0, 7.0)));
+    // The ball grows and shrinks with the corridors.
+    let usual = with(AssembleOptions::default()).unwrap();
+    for scale in [0.2 * usual.scale, 5.0 * usual.scale] {
+        let scaled = with(AssembleOptions { scale: Some(scale), ..Default::default() }).unwrap();
+        let part = scaled.ball_radius.units() / usual.ball_radius.units() / (scale / usual.scale);
+        assert!((part - 1.0).abs() < 1.0e-9 && scaled.solvable, "{part}");
+    }
     for scale in [1.0e-3, 1.0e9] {
         let refused = with(AssembleOptions { scale: Some(scale), ..Default::default() }).unwrap_err();
         assert!(refused.contains("expected 0.1 to 100"), "{refused}");

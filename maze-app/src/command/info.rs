@@ -24,6 +24,9 @@ pub(crate) struct Arguments {
     planes: Option<Facing>,
 }
 
+/// Most openings that are told one by one in text: a maze has two or a few more.
+const MOST_OPENINGS: usize = 12;
+
 fn parse_facing(text: &str) -> Result<Facing, String> {
     let known = Facing::ALL.into_iter().find(|facing| facing.name() == text);
     known.ok_or_else(|| "expected +x, -x, +y or -y".to_owned())
@@ -136,13 +139,16 @@ fn summary_text(maze: &Maze) -> String {
         format!("solvable     {}", maze.solvable),
     ];
     lines.extend(measures::lines(maze));
-    lines.extend(maze.openings.iter().map(|opening| {
+    lines.extend(maze.openings.iter().take(MOST_OPENINGS).map(|opening| {
         let [across, along] = axes(opening.facing);
         format!(
             "opening      at {across} = {:.3}, {along} from {:.3} to {:.3} (closed to the ball by a low bar)",
             opening.offset, opening.start, opening.end
         )
     }));
+    if let Some(n_more) = maze.openings.len().checked_sub(MOST_OPENINGS).filter(|n_more| 0 < *n_more) {
+        lines.push(format!("opening      and {n_more} more"));
+    }
     if !maze.has_floor {
         lines.push("floor        none in the file: one was laid".to_owned());
     }
