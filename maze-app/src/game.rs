@@ -6,7 +6,8 @@ use crate::source::Source;
 use clap::ValueEnum;
 use maze_core::replay::{self, Recording};
 use maze_core::{
-    Ball, BallSpec, Continuous, Engine, Event, Maze, OutOfRange, Phase, Published, Run, Tick, Tilt, gravity,
+    Ball, BallSpec, Continuous, Engine, Event, Hit, Maze, OutOfRange, Phase, Published, Run, Tick, Tilt,
+    gravity,
 };
 use maze_render::{BallView, Camera, Marker, Scene};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -52,6 +53,7 @@ pub(crate) struct Game {
     engine: Box<dyn Engine>,
     run: Run,
     last_tick: Tick,
+    last_hit: Option<Hit>,
     tilt: Tilt,
     /// One for each tick of the engine since the start, and where the last of them left the ball.
     tilts: Vec<Tilt>,
@@ -90,6 +92,7 @@ impl Game {
             engine,
             run: Run::new(&maze),
             last_tick: Tick::default(),
+            last_hit: None,
             tilt: Tilt::LEVEL,
             tilts: Vec::new(),
             played_to: Ball::at(maze.start),
@@ -106,6 +109,11 @@ impl Game {
     /// What the engine said of the last tick.
     pub(crate) fn last_tick(&self) -> &Tick {
         &self.last_tick
+    }
+
+    /// The last hit since the start, in this tick or an earlier one.
+    pub(crate) fn last_hit(&self) -> Option<&Hit> {
+        self.last_hit.as_ref()
     }
 
     pub(crate) fn phase(&self) -> Phase {
@@ -164,6 +172,7 @@ impl Game {
         self.run = Run::new(&self.maze);
         self.tilt = Tilt::LEVEL;
         self.tilts.clear();
+        self.last_hit = None;
         self.played_to = self.engine.ball();
         self.current = Pose::at_start(&self.maze);
         self.previous = self.current;
@@ -187,7 +196,9 @@ impl Game {
             return self.settle().map(|()| Vec::new());
         }
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
-        let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
+        let last_hit = &mut self.last_hit;
+        let mut observer = |hit: &Hit| *last_hit = Some(*hit);
+        let tick = self.engine.tick_observed(acceleration, &mut observer).map_err(Failure::bad_input)?;
         self.tilts.push(tilt);
         self.played_to = self.engine.ball();
         let position = self.played_to.position;
@@ -243,6 +254,7 @@ impl Game {
             goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
             lines: Vec::new(),
             patches: Vec::new(),
+            shows_maze: true,
         }
     }
 

@@ -17,6 +17,14 @@ const FOLLOW_ZOOM: f64 = 2.0;
 /// Time in which the view covers all but a third of its way (s): quick, and without a jerk.
 const SETTLE_S: f64 = 0.09;
 
+/// The whole board, with a part of the width free on the left; `aspect` is width over height.
+pub(crate) fn fitted(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32, left: f32) -> Camera {
+    let camera = Camera::fitted(half_size, aspect * (1.0 - left), max_tilt_rad);
+    let shift = left * aspect * (FIELD_OF_VIEW_RAD / 2.0).tan() * camera.distance;
+    let target = Vector3::from(camera.target) - Vector3::new(shift, 0.0, 0.0);
+    Camera { target: target.into(), ..camera }
+}
+
 /// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
 pub(super) fn with_room_below(camera: Camera, part: f32) -> Camera {
     let distance = camera.distance / (1.0 - part);

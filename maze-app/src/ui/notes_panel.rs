@@ -1,0 +1,66 @@
+//! What the method's overlays have to say: panels on the left, and words at places in the maze.
+
+use super::hud::{GOLD, MARGIN, is_small, panel};
+use crate::overlay::{Layers, Notes, Span};
+use egui::text::LayoutJob;
+use egui::{Align2, Color32, Context, FontId, RichText, TextFormat, vec2};
+
+/// Size of the letters (points).
+const LETTERS: f32 = 11.5;
+
+/// What panels take of the picture, with their margins (points).
+const WIDTH: f32 = 330.0;
+
+/// Words stand beside their place, not on it (points).
+const ASIDE: egui::Vec2 = vec2(10.0, -10.0);
+
+/// Part of the picture's width, on the left, that the layers' panels take: the maze is shown beside it.
+pub(crate) fn covered_width(layers: Layers, size_points: [f32; 2]) -> f32 {
+    let is_hidden = layers == Layers::default() || is_small(size_points);
+    // More than half is never taken from the maze.
+    if is_hidden { 0.0 } else { (WIDTH / size_points[0]).min(0.5) }
+}
+
+impl Notes {
+    /// `top` is where the first panel begins (points).
+    pub(crate) fn show(&self, context: &Context, top: f32) {
+        let screen = context.content_rect();
+        let painter = context.layer_painter(egui::LayerId::background());
+        for tag in &self.tags {
+            let at = screen.min + vec2(tag.at[0] * screen.width(), tag.at[1] * screen.height()) + ASIDE;
+            let galley = painter.layout_job(job(std::slice::from_ref(&tag.words), 14.0));
+            let place = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+            painter.rect_filled(place.expand2(vec2(5.0, 2.0)), 4.0, Color32::from_black_alpha(170));
+            painter.galley(place.min, galley, Color32::WHITE);
+        }
+        if self.panels.is_empty() || is_small([screen.width(), screen.height()]) {
+            return;
+        }
+        // At full strength at once: a picture has no time to wait for it.
+        let area = egui::Area::new(egui::Id::unique("notes")).fade_in(false).interactable(false);
+        area.anchor(Align2::LEFT_TOP, vec2(MARGIN, top)).show(context, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for note in &self.panels {
+                panel().show(ui, |ui| {
+                    ui.set_width(WIDTH - 4.0 * MARGIN);
+                    ui.label(RichText::new(&note.heading).color(GOLD).size(13.0));
+                    for line in &note.lines {
+                        ui.label(job(line, LETTERS));
+                    }
+                });
+                ui.add_space(4.0);
+            }
+        });
+    }
+}
+
+fn job(spans: &[Span], size: f32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    job.wrap.max_width = f32::INFINITY;
+    for span in spans {
+        let [r, g, b] = span.colour;
+        let format = TextFormat::simple(FontId::monospace(size), Color32::from_rgb(r, g, b));
+        job.append(&span.text, 0.0, format);
+    }
+    job
+}
