@@ -6,7 +6,7 @@ mod table;
 use crate::game::{Game, to_f32};
 use crate::ui::to_points;
 use maze_core::impact::Path;
-use maze_core::trace::{self, SearchTrace};
+use maze_core::trace::{self, GroupVisit, SearchTrace};
 use maze_core::{Facing, Hit, Plane, contact, gravity};
 use maze_render::Scene;
 use nalgebra::{Point3, Vector2, Vector3};
@@ -24,7 +24,7 @@ const AFTER: Colour = [90, 220, 255];
 const PENETRATION: Colour = [255, 60, 80];
 
 /// Rays are as long as this many seconds of the motion, or of an acceleration from rest times a second.
-const RAY_S: f64 = 0.35;
+const RAY_S: f64 = 0.5;
 
 /// Speeds (units/s) and accelerations (units/s²) below this have no ray.
 const LEAST_RAY: f64 = 1.0e-3;
@@ -240,7 +240,7 @@ impl<'a> Drawing<'a> {
         self.pen.arrow(from, whole, 2.0, QUIET);
         let text = |name: &str, vector: Vector2<f64>, unit: &str| format!("{name} {} {unit}", signed(vector));
         let lines = vec![
-            vec![span(QUIET, "gravity         9.81 units/s² straight down")],
+            vec![span(QUIET, "gravity       9.81 units/s² down")],
             vec![span(GRAVITY, text("in the plane ", pull, "units/s²"))],
             vec![span(VELOCITY, text("velocity     ", self.velocity, "units/s"))],
         ];
@@ -287,9 +287,11 @@ impl<'a> Drawing<'a> {
         let path = Path { position: ball.position, velocity: ball.velocity, acceleration: self.acceleration };
         let trace = trace::search(planes, &path, self.radius, tick_s);
         self.search_in_maze(&trace, &path);
-        // The first group that has a row in reach tells most.
+        // What there is to see: a plane that was handed over, a row in reach, or else the first group.
         let groups = &trace.groups;
-        let group = groups.iter().find(|group| !group.rows.is_empty()).or(groups.first());
+        let finds = |group: &&GroupVisit| group.rows.iter().any(|row| !row.planes.is_empty());
+        let group = groups.iter().find(finds);
+        let group = group.or_else(|| groups.iter().find(|group| !group.rows.is_empty())).or(groups.first());
         let facings: Vec<&str> = groups.iter().map(|group| group.facing.name()).collect();
         let mut lines = vec![vec![span(
             QUIET,
@@ -312,10 +314,13 @@ impl<'a> Drawing<'a> {
         for group in &trace.groups {
             let colour = colour_of(group.facing);
             for row in &group.rows {
-                // The part of the row that is searched, and what it holds.
-                let [low, high] = row.window.map(|along| group.facing.point(row.offset, along));
-                let lift = |point: Vector2<f64>| point.push(self.game.maze().wall_height);
-                self.pen.line(lift(low), lift(high), 2.0, colour);
+                // The row, the part of it that is searched, and what that holds.
+                let planes = self.game.maze().planes.planes(group.facing);
+                for plane in planes.filter(|plane| plane.offset == row.offset) {
+                    self.pen.face(&plane, 2.5, 90, colour);
+                }
+                let window = row.window.map(|along| group.facing.point(row.offset, along));
+                self.pen.pane(window, 60, colour);
                 for plane in &row.planes {
                     self.pen.face(plane, 5.0, 170, GOLD);
                 }
@@ -335,7 +340,7 @@ impl<'a> Drawing<'a> {
             return self.panel("last contact", vec![vec![span(QUIET, "none yet")]]);
         };
         self.contact_in_maze(&hit);
-        let met = if hit.penetration == 0.0 { "0, met exactly" } else { "pushed out by as much" };
+        let met = if hit.penetration == 0.0 { "0, met exactly" } else { "pushed out again" };
         let depth = match hit.penetration {
             0.0 => met.to_owned(),
             depth => format!("{depth:.4}, {met}"),

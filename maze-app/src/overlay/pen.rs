@@ -4,7 +4,7 @@ use super::{Colour, QUIET};
 use crate::game::to_f32;
 use maze_core::{Bounds, Plane};
 use maze_render::{Line, Patch};
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Vector2, Vector3};
 use std::f64::consts::TAU;
 
 /// Corners of a ring.
@@ -12,7 +12,7 @@ const N_RING: u32 = 48;
 
 /// An arrow's head, as a part of the arrow, and at most in units.
 const HEAD_PART: f64 = 0.3;
-const MAX_HEAD: f64 = 0.22;
+const MAX_HEAD: f64 = 0.18;
 
 /// Length of a dash (units).
 const DASH: f64 = 0.12;
@@ -96,6 +96,16 @@ impl Pen {
         let axis = plane.facing.axis();
         if 0.0 < (self.eye[axis] - plane.offset) * plane.facing.sign() {
             self.patch([start.push(low), end.push(low), end.push(high), start.push(high)], alpha, colour);
+        }
+    }
+
+    /// An upright pane as high as the walls, seen from both sides.
+    pub(super) fn pane(&mut self, ends: [Vector2<f64>; 2], alpha: u8, colour: Colour) {
+        let ([start, end], high) = (ends, self.wall_height);
+        let corners = [start.push(0.0), end.push(0.0), end.push(high), start.push(high)];
+        self.patch(corners, alpha, colour);
+        for n in 0..4 {
+            self.line(corners[n], corners[(n + 1) % 4], 1.5, colour);
         }
     }
 

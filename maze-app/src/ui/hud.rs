@@ -114,7 +114,7 @@ impl Hud<'_> {
 
     pub(crate) fn show(&self, ui: &mut Ui) {
         let screen = ui.ctx().content_rect();
-        self.notes.show(ui.ctx(), NOTES_TOP);
+        self.notes.show(ui, NOTES_TOP);
         self.clock(ui.ctx());
         if self.phase == Phase::Finished {
             self.goal_reached(ui.ctx());

@@ -78,7 +78,7 @@ pub(crate) fn picture(
     let mut overlay = Overlay::new(gpu, renderer.target_format());
     maze_render::capture_over(gpu, renderer, size, scene, |encoder, view| {
         if *notes != Notes::default() {
-            overlay.draw(gpu, encoder, view, size, scale, |ui| notes.show(ui.ctx(), hud::MARGIN));
+            overlay.draw(gpu, encoder, view, size, scale, |ui| notes.show(ui, hud::MARGIN));
         }
     })
 }

@@ -3,7 +3,7 @@
 use super::hud::{GOLD, MARGIN, is_small, panel};
 use crate::overlay::{Layers, Notes, Span};
 use egui::text::LayoutJob;
-use egui::{Align2, Color32, Context, FontId, RichText, TextFormat, vec2};
+use egui::{Align2, Color32, FontId, RichText, TextFormat, TextWrapMode, Ui, vec2};
 
 /// Size of the letters (points).
 const LETTERS: f32 = 11.5;
@@ -23,9 +23,9 @@ pub(crate) fn covered_width(layers: Layers, size_points: [f32; 2]) -> f32 {
 
 impl Notes {
     /// `top` is where the first panel begins (points).
-    pub(crate) fn show(&self, context: &Context, top: f32) {
-        let screen = context.content_rect();
-        let painter = context.layer_painter(egui::LayerId::background());
+    pub(crate) fn show(&self, ui: &mut Ui, top: f32) {
+        let screen = ui.ctx().content_rect();
+        let painter = ui.painter();
         for tag in &self.tags {
             let at = screen.min + vec2(tag.at[0] * screen.width(), tag.at[1] * screen.height()) + ASIDE;
             let galley = painter.layout_job(job(std::slice::from_ref(&tag.words), 14.0));
@@ -36,16 +36,16 @@ impl Notes {
         if self.panels.is_empty() || is_small([screen.width(), screen.height()]) {
             return;
         }
-        // At full strength at once: a picture has no time to wait for it.
-        let area = egui::Area::new(egui::Id::unique("notes")).fade_in(false).interactable(false);
-        area.anchor(Align2::LEFT_TOP, vec2(MARGIN, top)).show(context, |ui| {
+        // Not an area of egui's, which measures in its first frame and shows itself in the second: a picture has but one.
+        let place = egui::Rect::from_min_max(screen.min + vec2(MARGIN, top), screen.max);
+        ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for note in &self.panels {
                 panel().show(ui, |ui| {
                     ui.set_width(WIDTH - 4.0 * MARGIN);
                     ui.label(RichText::new(&note.heading).color(GOLD).size(13.0));
                     for line in &note.lines {
-                        ui.label(job(line, LETTERS));
+                        ui.add(egui::Label::new(job(line, LETTERS)).wrap_mode(TextWrapMode::Extend));
                     }
                 });
                 ui.add_space(4.0);
