@@ -373,7 +373,7 @@ impl App {
         let whole = view::fitted(self.game.half_size(), aspect, self.max_tilt_rad, left);
         let whole = view::with_room_below(whole, hud.covered_part(size_points));
         self.view.update(elapsed, whole, pose.ball_in_world().cast());
-        let mut scene = self.game.scene(&pose, self.view.camera());
+        let mut scene = self.game.scene(&pose, view::beside(self.view.camera(), aspect, left));
         let notes = overlay::add(self.layers, &self.game, &mut scene, size);
         let hud = Hud { notes: &notes, ..hud };
         if self.idle.may_skip(now, &scene, &hud, size) {

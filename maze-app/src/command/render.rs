@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let left = ui::covered_width(layers, arguments.size.map(|side| to_points(side, 1.0)));
     let whole = view::fitted(game.half_size(), aspect, tilt_rad, left);
     let camera = zoomed(whole, arguments.zoom, pose.ball_in_world().cast());
-    let mut scene = game.scene(&pose, camera);
+    let mut scene = game.scene(&pose, view::beside(camera, aspect, left));
     let notes = overlay::add(layers, &game, &mut scene, arguments.size);
     let picture = ui::picture(&gpu, &mut renderer, arguments.size, 1.0, &scene, &notes);
     let picture = picture.map_err(Failure::bad_input)?;

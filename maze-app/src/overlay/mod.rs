@@ -340,17 +340,17 @@ impl<'a> Drawing<'a> {
             return self.panel("last contact", vec![vec![span(QUIET, "none yet")]]);
         };
         self.contact_in_maze(&hit);
-        let met = if hit.penetration == 0.0 { "0, met exactly" } else { "pushed out again" };
+        let met = if hit.penetration == 0.0 { "0: walls are met exactly" } else { "pushed out again" };
         let depth = match hit.penetration {
             0.0 => met.to_owned(),
-            depth => format!("{depth:.4}, {met}"),
+            depth => format!("{depth:.4} units, {met}"),
         };
         let lines = vec![
-            vec![span(GOLD, format!("closest point  {}", signed(hit.point)))],
-            vec![span(INK, format!("normal         {}", signed(hit.normal)))],
-            vec![span(PENETRATION, format!("penetration    {depth}"))],
-            vec![span(VELOCITY, format!("before         {}", motion(hit.before.velocity)))],
-            vec![span(AFTER, format!("after          {}", motion(hit.after.velocity)))],
+            vec![span(GOLD, format!("closest  {}", signed(hit.point)))],
+            vec![span(INK, format!("normal   {}", signed(hit.normal)))],
+            vec![span(PENETRATION, format!("depth    {depth}"))],
+            vec![span(VELOCITY, format!("before   {}", motion(hit.before.velocity)))],
+            vec![span(AFTER, format!("after    {}", motion(hit.after.velocity)))],
         ];
         self.panel("last contact", lines);
     }

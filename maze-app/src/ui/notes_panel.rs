@@ -42,7 +42,7 @@ impl Notes {
             ui.spacing_mut().item_spacing.y = 2.0;
             for note in &self.panels {
                 panel().show(ui, |ui| {
-                    ui.set_width(WIDTH - 4.0 * MARGIN);
+                    ui.set_width(WIDTH - 3.5 * MARGIN);
                     ui.label(RichText::new(&note.heading).color(GOLD).size(13.0));
                     for line in &note.lines {
                         ui.add(egui::Label::new(job(line, LETTERS)).wrap_mode(TextWrapMode::Extend));
