@@ -1,9 +1,10 @@
 //! `maze-app render`: one picture, no window.
 
 use crate::app::view::{self, ZOOM_RANGE, zoomed};
+use crate::command::play::parse_max_tilt;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{EngineKind, Game};
+use crate::game::{EngineKind, Game, to_f32};
 use crate::overlay::{self, Layers};
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
@@ -44,6 +45,9 @@ pub(crate) struct Arguments {
     /// How many times nearer than a view of the whole maze, 0.5 to 6; from 2 on with the ball in the middle
     #[arg(long, value_name = "Z", value_parser = parse_zoom, default_value = "1")]
     zoom: f64,
+    /// Degrees of tilt that the view has room for: 20 for a picture as in the game [default: the tilt]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_max_tilt)]
+    max_tilt: Option<f64>,
     /// Ticks of 0.03 s under that tilt before the picture, at most 120000
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
     ticks: u32,
@@ -100,8 +104,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
-    let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
+    let [x, y] = arguments.tilt.half_tangents().map(to_f32);
     let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
+    let tilt_rad = arguments.max_tilt.map_or(tilt_rad, |degrees| to_f32(degrees.to_radians()));
     let pose = game.pose(1.0, None);
     let layers = arguments.show.unwrap_or_default();
     let left = ui::covered_width(layers, arguments.size.map(|side| to_points(side, 1.0)));

@@ -32,7 +32,7 @@ pub(super) fn lines(planes: &SortedPlanes, group: &GroupVisit, colour: Colour) -
     };
     let known: Vec<Plane> = planes.planes(facing).filter(|plane| plane.offset == row.offset).collect();
     let handed: Vec<usize> = (0..known.len()).filter(|index| row.planes.contains(&known[*index])).collect();
-    lines.push(vec![span(colour, format!("row {}: {} planes, sorted by end", row.row, known.len()))]);
+    lines.push(vec![span(colour, format!("row {}, its planes sorted by end: {}", row.row, known.len()))]);
     let [low, high] = row.window;
     lines.push(vec![span(QUIET, format!("sought: {low:.2} to {high:.2} along it"))]);
     let extent = |index: usize| format!("{:>8.2}{:>8.2}", known[index].start, known[index].end);

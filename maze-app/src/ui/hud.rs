@@ -23,7 +23,7 @@ const KEYS_HEIGHT: f32 = 74.0;
 /// Where the method's panels begin: below the clock (points).
 const NOTES_TOP: f32 = 96.0;
 
-const KEYS: [(&str, &str); 13] = [
+const KEYS: [(&str, &str); 11] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
@@ -35,13 +35,17 @@ const KEYS: [(&str, &str); 13] = [
     ("F3", "frame times"),
     ("F11", "whole screen"),
     ("F12", "picture to a file"),
+];
+
+/// After the overlays, which are 1 to 6, in the second line.
+const METHOD_KEYS: [(&str, &str); 6] = [
+    ("0", "none"),
+    ("P, Space", "pause"),
+    ("dot", "one tick"),
+    ("- / =", "slower / faster"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];
-
-/// Beside the overlays, which are 1 to 6.
-const METHOD_KEYS: [(&str, &str); 4] =
-    [("0", "none"), ("P, Space", "pause"), (".", "one tick"), ("- / =", "slower / faster")];
 
 /// What is on screen beside the maze.
 pub(crate) struct Hud<'a> {
