@@ -20,5 +20,5 @@ picture 07 --tilt 9,-7 --ticks 14 --zoom 3 --show search
 picture 08 --tilt 9,-7 --ticks 60 --zoom 6 --engine published --show contact
 picture 09 --tilt 9,-7 --ticks 60 --zoom 4 --show velocity
 picture 10 --tilt 9,-7 --ticks 60 --zoom 3 --show clearance
-montage "$out"/*.png -tile 2x5 -geometry +4+4 -background '#181410' -quality 70 docs/pictures/method.jpg
+montage "$out"/*.png -tile 2x5 -geometry +4+4 -background '#181410' -quality 64 docs/pictures/method.jpg
 rm -r "$out"

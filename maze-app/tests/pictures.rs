@@ -113,13 +113,14 @@ fn each_overlay_shows_what_it_should() {
 
 #[test]
 fn planes_are_red_green_cyan_and_blue() {
+    type IsColour = fn([i32; 3]) -> bool;
     let plain = decoded(&render(&["--quality", "low"]));
     let coloured = decoded(&render(&["--quality", "low", "--show", "planes"]));
     // The dominant channels of each facing's colour, counted where the plain picture has none of it.
-    let count = |picture: &RgbImage, is_it: fn([i32; 3]) -> bool| {
+    let count = |picture: &RgbImage, is_it: IsColour| {
         picture.pixels().filter(|pixel| is_it(pixel.0.map(i32::from))).count()
     };
-    let colours: [(&str, fn([i32; 3]) -> bool); 4] = [
+    let colours: [(&str, IsColour); 4] = [
         ("red", |[r, g, b]| 170 < r && g < 110 && b < 100),
         ("green", |[r, g, b]| 150 < g && r + 50 < g && b + 50 < g),
         ("cyan", |[r, g, b]| 150 < g && 150 < b && r + 50 < g),

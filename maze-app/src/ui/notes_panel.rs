@@ -11,6 +11,9 @@ const LETTERS: f32 = 11.5;
 /// What panels take of the picture, with their margins (points).
 const WIDTH: f32 = 330.0;
 
+/// Denser than the other panels' glass: there is more to read, and the maze behind it is bright.
+const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 245);
+
 /// Words stand beside their place, not on it (points).
 const ASIDE: egui::Vec2 = vec2(10.0, -10.0);
 
@@ -27,8 +30,9 @@ impl Notes {
         let screen = ui.ctx().content_rect();
         let painter = ui.painter();
         for tag in &self.tags {
-            let at = screen.min + vec2(tag.at[0] * screen.width(), tag.at[1] * screen.height()) + ASIDE;
+            let mut at = screen.min + vec2(tag.at[0] * screen.width(), tag.at[1] * screen.height()) + ASIDE;
             let galley = painter.layout_job(job(std::slice::from_ref(&tag.words), 14.0));
+            at.x = at.x.min(screen.right() - galley.size().x - ASIDE.x);
             let place = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
             painter.rect_filled(place.expand2(vec2(5.0, 2.0)), 4.0, Color32::from_black_alpha(170));
             painter.galley(place.min, galley, Color32::WHITE);
@@ -41,7 +45,7 @@ impl Notes {
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for note in &self.panels {
-                panel().show(ui, |ui| {
+                panel().fill(GLASS).show(ui, |ui| {
                     ui.set_width(WIDTH - 3.5 * MARGIN);
                     ui.label(RichText::new(&note.heading).color(GOLD).size(13.0));
                     for line in &note.lines {
