@@ -422,6 +422,9 @@ fn motion(velocity: Vector2<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::game::EngineKind;
+    use maze_core::{AssembleOptions, Maze, Tilt, extrude, layout};
+    use maze_render::Camera;
 
     #[test]
     fn layers_are_read_by_name_and_toggled() {
@@ -435,5 +438,56 @@ mod tests {
         let known = "gravity, planes, search, contact, velocity, clearance";
         assert_eq!(error, format!("no overlay is named 'tensors': expected any of {known}"));
         assert!(Layers::parse("").is_err());
+    }
+
+    fn game(engine: EngineKind) -> Game {
+        let mesh = extrude::extrude(&layout::recursive_backtracker(6, 5, 11).unwrap());
+        let mut game =
+            Game::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap(), engine).unwrap();
+        for _ in 0..200 {
+            game.tick(Tilt::from_half_tangents(0.06, 0.05)).unwrap();
+        }
+        game
+    }
+
+    fn shown(game: &Game, layers: &str) -> (Scene, Notes) {
+        let camera = Camera { target: [0.0; 3], distance: 20.0 };
+        let mut scene = game.scene(&game.pose(1.0, None), camera);
+        let layers = if layers.is_empty() { Layers::default() } else { Layers::parse(layers).unwrap() };
+        let notes = add(layers, game, &mut scene, [640, 360]);
+        (scene, notes)
+    }
+
+    #[test]
+    fn nothing_is_added_unless_asked_for_and_gravity_alone_hides_the_maze() {
+        let game = game(EngineKind::Continuous);
+        let (plain, notes) = shown(&game, "");
+        assert!(plain.lines.is_empty() && plain.patches.is_empty() && notes == Notes::default());
+        for layer in Layer::ALL {
+            let (scene, notes) = shown(&game, layer.name());
+            assert_eq!(scene.shows_maze, layer != Layer::Gravity);
+            assert_eq!(notes.panels.len(), 1, "{layer:?}");
+        }
+    }
+
+    #[test]
+    fn each_plane_has_an_edge_in_its_facings_colour() {
+        let game = game(EngineKind::Continuous);
+        let (scene, _) = shown(&game, "planes");
+        for facing in Facing::ALL {
+            let is_facing = |line: &&maze_render::Line| line.colour[..3] == colour_of(facing);
+            assert_eq!(scene.lines.iter().filter(is_facing).count(), game.maze().planes.n_planes(facing));
+        }
+    }
+
+    #[test]
+    fn the_published_engines_contact_has_a_depth_and_the_exact_ones_has_none() {
+        for (engine, is_deep) in [(EngineKind::Published, true), (EngineKind::Continuous, false)] {
+            let game = game(engine);
+            assert_eq!(0.0 < game.last_hit().unwrap().penetration, is_deep);
+            let (_, notes) = shown(&game, "contact");
+            let depth = &notes.panels[0].lines[2][0].text;
+            assert_eq!(depth.contains("pushed out again"), is_deep, "{depth}");
+        }
     }
 }
