@@ -11,7 +11,7 @@ use crate::demo::Demo;
 use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
-use crate::game::{EngineKind, Game, to_f32};
+use crate::game::{Game, to_f32};
 use crate::input::{self, Action, TiltControl};
 use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
@@ -83,7 +83,6 @@ pub(crate) struct App {
     view: View,
     source: Source,
     labels: Labels,
-    engine: EngineKind,
     textures: TextureSet,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
@@ -129,7 +128,6 @@ impl App {
             labels: Labels::new(&setup.source, game.maze()),
             game,
             source: setup.source,
-            engine: setup.engine,
             textures: setup.textures,
             state_log_path: setup.state_log,
             state_log: None,
@@ -227,6 +225,7 @@ impl App {
             Action::Slower => self.clock.slower(),
             Action::Faster => self.clock.faster(),
             Action::ToggleFullscreen => self.graphics.iter().for_each(Graphics::toggle_fullscreen),
+            Action::NextGhost => self.game.next_ghost()?,
             Action::NextQuality => self.next_quality()?,
             Action::Screenshot => self.screenshot(),
             Action::Quit => event_loop.exit(),
@@ -254,7 +253,7 @@ impl App {
     /// Loads the source's maze when it has changed.
     fn load(&mut self, changed: bool) -> Result<(), Failure> {
         if changed {
-            self.game = Game::new(self.source.load()?, self.engine)?;
+            self.game = self.game.on(self.source.load()?)?;
             self.load_into_graphics()?;
             self.begin();
         }
@@ -273,7 +272,7 @@ impl App {
     /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
     fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
         let source = self.source.of_file(path);
-        match source.load().and_then(|maze| Game::new(maze, self.engine)) {
+        match source.load().and_then(|maze| self.game.on(maze)) {
             Ok(game) => {
                 (self.game, self.source) = (game, source);
                 self.load_into_graphics()?;
@@ -354,6 +353,7 @@ impl App {
             phase: self.game.phase(),
             n_ticks: self.game.n_ticks(),
             tick_s: self.game.tick_s(),
+            ghost: self.game.ghost(),
             labels: &self.labels,
             help: self.help,
             notice: notice.map(|(text, _)| text.as_str()),

@@ -1,15 +1,12 @@
 //! One maze being played: engine, rules, tilt, and what a frame shows of them.
 
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::input::TiltControl;
 use crate::source::Source;
-use clap::ValueEnum;
 use maze_core::replay::{self, Recording};
-use maze_core::{
-    Ball, BallSpec, Continuous, Engine, Event, Hit, Maze, OutOfRange, Phase, Published, Run, Tick, Tilt,
-    gravity,
-};
-use maze_render::{BallView, Camera, Marker, Scene};
+use maze_core::{Ball, Engine, Event, Hit, Maze, Phase, Run, Tick, Tilt, gravity};
+use maze_render::{BallView, Camera, GhostView, Marker, Scene};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
 /// How strongly the goal shines before and after it is reached.
@@ -18,39 +15,13 @@ const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
 /// Part of its way to the middle of the goal that the ball covers in a tick once it has got there.
 const SETTLE_PART: f64 = 0.2;
 
-/// How the ball's motion is computed.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum EngineKind {
-    /// Exact: from touch to touch on parabolas, no substeps, no penetration
-    Continuous,
-    /// The report's method, step for step
-    Published,
-}
-
-impl EngineKind {
-    /// As on the command line.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Continuous => "continuous",
-            Self::Published => "published",
-        }
-    }
-
-    fn build(self, maze: &Maze) -> Result<Box<dyn Engine>, OutOfRange> {
-        let spec = BallSpec { radius: maze.ball_radius, ..BallSpec::default() };
-        let (planes, ball) = (maze.planes.clone(), Ball::at(maze.start));
-        Ok(match self {
-            Self::Continuous => Box::new(Continuous::new(planes, spec, ball, Published::TICK_S)?),
-            Self::Published => Box::new(Published::new(planes, spec, ball)?),
-        })
-    }
-}
-
 /// Owns what a run is made of; knows nothing of windows.
 pub(crate) struct Game {
     maze: Maze,
     kind: EngineKind,
     engine: Box<dyn Engine>,
+    /// Another engine, whose ball gets the same tilts.
+    ghost: Option<(EngineKind, Box<dyn Engine>)>,
     run: Run,
     last_tick: Tick,
     last_hit: Option<Hit>,
@@ -66,6 +37,7 @@ pub(crate) struct Game {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pose {
     position: Vector2<f64>,
+    ghost: Option<Vector2<f64>>,
     /// Maze from ball: how the pattern has rolled.
     rotation: UnitQuaternion<f64>,
     world_from_maze: UnitQuaternion<f64>,
@@ -79,17 +51,18 @@ impl Pose {
 
     fn at_start(maze: &Maze) -> Self {
         let level = UnitQuaternion::identity();
-        Self { position: maze.start, rotation: level, world_from_maze: level }
+        Self { position: maze.start, ghost: None, rotation: level, world_from_maze: level }
     }
 }
 
 impl Game {
     pub(crate) fn new(maze: Maze, kind: EngineKind) -> Result<Self, Failure> {
-        let engine = kind.build(&maze).map_err(Failure::bad_input)?;
+        let engine = kind.build(&maze, Ball::at(maze.start))?;
         let start = Pose::at_start(&maze);
         Ok(Self {
             kind,
             engine,
+            ghost: None,
             run: Run::new(&maze),
             last_tick: Tick::default(),
             last_hit: None,
@@ -100,6 +73,40 @@ impl Game {
             current: start,
             maze,
         })
+    }
+
+    /// Another maze under the same engines.
+    pub(crate) fn on(&self, maze: Maze) -> Result<Self, Failure> {
+        let mut game = Self::new(maze, self.kind)?;
+        game.set_ghost(self.ghost.as_ref().map(|(kind, _)| *kind))?;
+        Ok(game)
+    }
+
+    /// From now on another engine's ball, which starts as the ball is now, gets the same tilts.
+    pub(crate) fn set_ghost(&mut self, kind: Option<EngineKind>) -> Result<(), Failure> {
+        let built = kind.map(|kind| Ok((kind, kind.build(&self.maze, self.engine.ball())?)));
+        self.ghost = built.transpose()?;
+        let shows = self.ghost.is_some();
+        for pose in [&mut self.previous, &mut self.current] {
+            pose.ghost = shows.then_some(pose.position);
+        }
+        Ok(())
+    }
+
+    /// The next of the other engines as the ghost, and after the last none.
+    pub(crate) fn next_ghost(&mut self) -> Result<(), Failure> {
+        let mut others = EngineKind::BUILT.iter().copied().filter(|kind| *kind != self.kind);
+        let next = match &self.ghost {
+            None => others.next(),
+            Some((shown, _)) => others.skip_while(|kind| kind != shown).nth(1),
+        };
+        self.set_ghost(next)
+    }
+
+    /// The ghost's engine, and how far its ball is from the ball (corridors).
+    pub(crate) fn ghost(&self) -> Option<(&'static str, f64)> {
+        let (kind, engine) = self.ghost.as_ref()?;
+        Some((kind.name(), (engine.ball().position - self.ball().position).norm()))
     }
 
     pub(crate) fn maze(&self) -> &Maze {
@@ -176,7 +183,7 @@ impl Game {
         self.played_to = self.engine.ball();
         self.current = Pose::at_start(&self.maze);
         self.previous = self.current;
-        Ok(())
+        self.set_ghost(self.ghost.as_ref().map(|(kind, _)| *kind))
     }
 
     /// Turns the board without simulating: for a picture of the start.
@@ -199,6 +206,10 @@ impl Game {
         let last_hit = &mut self.last_hit;
         let mut observer = |hit: &Hit| *last_hit = Some(*hit);
         let tick = self.engine.tick_observed(acceleration, &mut observer).map_err(Failure::bad_input)?;
+        if let Some((_, ghost)) = &mut self.ghost {
+            ghost.tick(acceleration).map_err(Failure::bad_input)?;
+            self.current.ghost = Some(ghost.ball().position);
+        }
         self.tilts.push(tilt);
         self.played_to = self.engine.ball();
         let position = self.played_to.position;
@@ -225,7 +236,8 @@ impl Game {
     pub(crate) fn pose(&self, alpha: f64, held: Option<&TiltControl>) -> Pose {
         let (a, b) = (&self.previous, &self.current);
         Pose {
-            position: a.position + (b.position - a.position) * alpha,
+            position: a.position.lerp(&b.position, alpha),
+            ghost: a.ghost.zip(b.ghost).map(|(a, b)| a.lerp(&b, alpha)),
             rotation: a.rotation.nlerp(&b.rotation, alpha),
             world_from_maze: match held {
                 Some(control) => control.tilt().world_from_maze(),
@@ -249,6 +261,10 @@ impl Game {
                 radius: to_f32(radius),
                 rotation: pose.rotation.cast(),
             },
+            ghost: pose.ghost.map(|position| GhostView {
+                position: position.push(radius).map(to_f32).into(),
+                radius: to_f32(radius),
+            }),
             start: marker(self.maze.start),
             goal: marker(self.maze.goal),
             goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
@@ -280,7 +296,10 @@ pub(crate) fn to_f32(value: f64) -> f32 {
 mod tests {
     use super::*;
     use crate::clock::Clock;
-    use maze_core::{AssembleOptions, extrude, layout};
+    use maze_core::{AssembleOptions, Published, extrude, layout};
+
+    /// rapier keeps positions, here below 8 units, in f32.
+    const F32_ROUNDING: f64 = 1.0e-6;
 
     fn game() -> Game {
         game_with(EngineKind::Continuous)
@@ -350,6 +369,75 @@ mod tests {
         let apart = (exact - published).norm();
         // Explicit Euler is ahead by half a tick's gain in speed each tick.
         assert!(0.0 < apart && apart < moved, "{apart} of {moved}");
+    }
+
+    #[test]
+    fn a_ghost_of_the_same_engine_stays_with_the_ball() {
+        for kind in [EngineKind::Continuous, EngineKind::Published] {
+            let mut game = game_with(kind);
+            for tick in 0..400 {
+                if tick == 100 {
+                    // In the middle of the run.
+                    game.set_ghost(Some(kind)).unwrap();
+                }
+                game.tick(tilt_at(tick)).unwrap();
+                assert_eq!(game.ghost(), (100 <= tick).then(|| (kind.name(), 0.0)));
+            }
+        }
+    }
+
+    #[test]
+    fn ghosts_of_all_other_engines_follow_and_never_disturb_the_ball() {
+        for kind in EngineKind::BUILT {
+            let (mut game, mut alone) = (game_with(*kind), game_with(*kind));
+            let mut seen = vec![];
+            loop {
+                game.next_ghost().unwrap();
+                let Some((name, distance)) = game.ghost() else { break };
+                assert!(distance < F32_ROUNDING, "{name}: {distance}");
+                seen.push(name);
+                for tick in 0..200 {
+                    game.tick(tilt_at(tick)).unwrap();
+                    alone.tick(tilt_at(tick)).unwrap();
+                    assert_eq!(game.ball(), alone.ball());
+                }
+                let apart = game.ghost().unwrap().1;
+                // The board's diagonal is below 10 corridors: further away it would have gone through a wall.
+                assert!(0.0 < apart && apart < 10.0, "{name} beside {}: {apart}", kind.name());
+                let camera = Camera { target: [0.0; 3], distance: 10.0 };
+                let [then, now] = [0.0, 1.0].map(|alpha| game.scene(&game.pose(alpha, None), camera));
+                assert_ne!(then.ghost, now.ghost);
+                assert_ne!(now.ghost.unwrap().position, now.ball.position);
+                game.restart().unwrap();
+                alone.restart().unwrap();
+                assert!(game.ghost().unwrap().1 < F32_ROUNDING);
+            }
+            let others = EngineKind::BUILT.iter().filter(|other| *other != kind);
+            assert_eq!(seen, others.map(|other| other.name()).collect::<Vec<_>>());
+            assert_eq!(
+                game.scene(&game.pose(1.0, None), Camera { target: [0.0; 3], distance: 1.0 }).ghost,
+                None
+            );
+        }
+    }
+
+    #[test]
+    fn another_maze_is_played_with_the_same_ghost() {
+        let mut game = game();
+        game.next_ghost().unwrap();
+        let name = game.ghost().unwrap().0;
+        game.tick(tilt_at(9)).unwrap();
+        let other = game.on(game_with(EngineKind::Published).maze).unwrap();
+        let (other_name, distance) = other.ghost().unwrap();
+        assert_eq!((other.kind, other_name), (EngineKind::Continuous, name));
+        assert!(distance < F32_ROUNDING);
+    }
+
+    #[cfg(not(feature = "rapier"))]
+    #[test]
+    fn without_rapier_it_is_refused() {
+        let failure = game().set_ghost(Some(EngineKind::Rapier)).unwrap_err();
+        assert!(failure.to_string().contains("built without rapier"));
     }
 
     #[test]

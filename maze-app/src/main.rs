@@ -5,6 +5,7 @@ mod app;
 mod clock;
 mod command;
 mod demo;
+mod engine_kind;
 mod failure;
 mod files;
 mod frame_log;

@@ -255,6 +255,22 @@ fn the_autopilot_reaches_the_goal_and_its_recording_ends_in_the_same_state() {
 }
 
 #[test]
+fn rapier_plays_and_replays_where_it_is_built_in_and_is_refused_where_not() {
+    let directory = tempfile::tempdir().unwrap();
+    let record = directory.path().join("run.maze").display().to_string();
+    let play =
+        ["autopilot", "--seed", "7", "--size", "5x4", "--engine", "rapier", "--record", &record, "--json"];
+    if cfg!(feature = "rapier") {
+        let run = json(&play);
+        assert_eq!(run["finished"], true);
+        assert_eq!(json(&["replay", &record, "--json"])["same"], true);
+    } else {
+        refused(&mut maze_app(&play), "built without rapier");
+        assert!(names_in(directory.path()).is_empty());
+    }
+}
+
+#[test]
 fn a_recording_of_another_maze_or_a_cut_one_is_refused_and_a_changed_one_ends_elsewhere() {
     let directory = tempfile::tempdir().unwrap();
     let path = |name: &str| directory.path().join(name).display().to_string();

@@ -150,6 +150,21 @@ fn the_tolerance_notices_a_degree_of_tilt_and_a_ball_that_has_moved() {
 }
 
 #[test]
+fn a_ghost_is_where_its_engine_has_its_ball() {
+    let with = |arguments: &[&str]| {
+        decoded(&render(&[&["--tilt", "9,-7", "--ticks", "30", "--zoom", "6"], arguments].concat()))
+    };
+    let [alone, same, other] = [&[][..], &["--ghost", "continuous"], &["--ghost", "published"]].map(with);
+    let changed = |picture: &RgbImage, x: u32, y: u32| picture.get_pixel(x, y) != alone.get_pixel(x, y);
+    // Zoomed in so far, the ball is in the middle.
+    let [x, y] = [alone.width() / 2, alone.height() / 2];
+    assert!(changed(&same, x, y) && !changed(&same, 5, 5) && !changed(&same, x, 5));
+    let parts = [&same, &other].map(|picture| difference(&alone, picture).0);
+    assert!(0.02 < parts[0] && parts[0] < 0.5, "as large as the ball: {parts:?}");
+    assert!(MAX_DIFFERENT_PART < difference(&same, &other).0, "the two engines differ");
+}
+
+#[test]
 fn any_size_and_aspect_is_drawn() {
     for size in ["1x1", "31x700", "900x40"] {
         let picture = decoded(&render_sized(size, &[]));

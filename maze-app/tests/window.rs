@@ -326,9 +326,9 @@ fn tiny_minimised_and_restored_windows_stay_alive() {
 }
 
 #[test]
-fn keys_change_the_quality_show_frame_times_fill_the_screen_and_save_pictures() {
+fn keys_show_ghosts_change_the_quality_show_frame_times_fill_the_screen_and_save_pictures() {
     let mut session = Session::open(&MAZE);
-    for key in ["F3", "q", "q", "q", "F3", "F11"] {
+    for key in ["g", "r", "g", "n", "g", "g", "F3", "q", "q", "q", "F3", "F11"] {
         session.xdotool(&["key", key]);
         session.expect_alive(key);
     }

@@ -98,6 +98,7 @@ fn scene(maze: &Maze, turn: f32) -> Scene {
             radius,
             rotation: UnitQuaternion::identity(),
         },
+        ghost: None,
         start: Marker { position: start, radius: maze.goal_radius as f32 },
         goal: Marker { position: goal, radius: maze.goal_radius as f32 },
         goal_glow: 0.5,

@@ -49,7 +49,7 @@ pub use gpu::{Acquired, Gpu, GpuError, WindowTarget};
 pub use paint::{PaintBatch, PaintVertex, Painter};
 pub use quality::Quality;
 pub use renderer::Renderer;
-pub use scene::{BallView, Line, Marker, Patch, Scene};
+pub use scene::{BallView, GhostView, Line, Marker, Patch, Scene};
 pub use shader::{SHADERS, Shader};
 pub use texture::{TextureError, TextureSet, decode_bmp};
 pub use timer::GpuTimer;

@@ -8,6 +8,7 @@ use crate::occlusion::OcclusionMap;
 use crate::pass::background::Background;
 use crate::pass::ball::Ball;
 use crate::pass::floor_light::{FloorLight, FloorLightMap};
+use crate::pass::ghost::Ghost;
 use crate::pass::lines::Lines;
 use crate::pass::material::Materials;
 use crate::pass::maze::Maze;
@@ -31,6 +32,7 @@ pub struct Renderer {
     shadow: Shadow,
     maze: Surfaces,
     ball: Ball,
+    ghost: Ghost,
     lines: Lines,
     board: Board,
     /// Made by [`Renderer::set_maze`]; nothing but the table is drawn before.
@@ -137,6 +139,7 @@ impl Renderer {
             background: Background::new(&shared),
             shadow: Shadow::new(&shared),
             ball: Ball::new(&shared, &materials),
+            ghost: Ghost::new(&shared),
             lines: Lines::new(&shared),
             maze,
             quality,
@@ -325,6 +328,10 @@ impl Renderer {
             }
             if shows_ball {
                 self.ball.draw(&mut pass, &self.materials);
+            }
+            // After all that is solid.
+            if scene.ghost.is_some_and(|ghost| 0.0 < ghost.radius) {
+                self.ghost.draw(&mut pass);
             }
         }
         self.lines.draw(&mut pass);

@@ -15,6 +15,8 @@ pub struct Scene {
     pub shows_maze: bool,
     /// The ball.
     pub ball: BallView,
+    /// Another ball beside it, as of tinted glass; throws no shadow.
+    pub ghost: Option<GhostView>,
     /// Where the run began: a thin blue ring with a dot.
     pub start: Marker,
     /// Where the run ends: gold and green rings, a target.
@@ -58,6 +60,15 @@ pub struct BallView {
     pub radius: f32,
     /// How far the ball has rolled: maze from ball, turns the pattern into the maze frame.
     pub rotation: UnitQuaternion<f32>,
+}
+
+/// A translucent ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GhostView {
+    /// Centre, maze frame.
+    pub position: [f32; 3],
+    /// Radius in maze units; zero or less hides the ghost.
+    pub radius: f32,
 }
 
 /// A round mark on the floor.

@@ -29,9 +29,11 @@ pub(crate) const MAZE: Shader = shader!(
     &["vertex", "fragment"]
 );
 pub(crate) const BALL: Shader = shader!(
-    ["frame.wgsl", "output.wgsl", "lighting.wgsl", "material.wgsl", "ball.wgsl"],
+    ["frame.wgsl", "output.wgsl", "lighting.wgsl", "material.wgsl", "sphere.wgsl", "ball.wgsl"],
     &["vertex", "fragment"]
 );
+pub(crate) const GHOST: Shader =
+    shader!(["frame.wgsl", "output.wgsl", "sphere.wgsl", "ghost.wgsl"], &["vertex", "fragment"]);
 pub(crate) const FLOOR_LIGHT: Shader = shader!(
     ["frame.wgsl", "lighting.wgsl", "floor_light.wgsl"],
     &["vertex_sky", "fragment_sky", "vertex_wall", "fragment_wall", "vertex_ball", "fragment_ball"]
@@ -55,7 +57,7 @@ pub(crate) const LINES: Shader =
 pub(crate) const PAINT: Shader = shader!(["output.wgsl", "paint.wgsl"], &["vertex", "fragment"]);
 
 /// Every shader the renderer compiles.
-pub const SHADERS: [Shader; 8] = [SHADOW, BACKGROUND, MAZE, BALL, FLOOR_LIGHT, PLAIN, LINES, PAINT];
+pub const SHADERS: [Shader; 9] = [SHADOW, BACKGROUND, MAZE, BALL, GHOST, FLOOR_LIGHT, PLAIN, LINES, PAINT];
 
 impl Shader {
     pub(crate) fn module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {

@@ -2,7 +2,7 @@
 
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
 use maze_render::{
-    CAPTURE_FORMAT, Gpu, GpuError, Line, Patch, Quality, Renderer, Scene, TextureSet, capture,
+    CAPTURE_FORMAT, GhostView, Gpu, GpuError, Line, Patch, Quality, Renderer, Scene, TextureSet, capture,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 
@@ -379,5 +379,36 @@ fn lines_and_patches_lie_over_walls_at_their_place_and_width() {
             r < g && b < g && with.get_pixel(x, y) != without.get_pixel(x, y)
         });
         assert!((5..=7).contains(&changed.count()), "{quality:?}");
+    }
+}
+
+#[test]
+fn a_ghost_is_seen_through_and_hidden_by_what_is_nearer() {
+    for quality in Quality::ALL {
+        println!("{quality:?}"); // Shown when the test fails.
+
+        let gpu = Gpu::offscreen_software().unwrap();
+        let board = Board::empty(5, 4);
+        let mut scene = board.scene(ASPECT);
+        scene.ball.position = [1.3, -0.7, 0.35];
+        let with = |floor: u8, ghost: Option<[f32; 3]>| {
+            let textures = flat_textures(GREY, [floor; 3], GREY);
+            let ghost = ghost.map(|position| GhostView { position, radius: 0.35 });
+            drawn(&gpu, quality, &textures, &board, &Scene { ghost, ..scene.clone() })
+        };
+        let at = |picture: &RgbaImage, place| pixel(picture, &scene, place);
+
+        let place = [-1.0, 0.5, 0.35];
+        let [without, dark, light] = [with(60, None), with(60, Some(place)), with(220, Some(place))];
+        assert_ne!(at(&dark, place), at(&without, place), "it shows");
+        assert!(at(&dark, place)[0].saturating_add(20) < at(&light, place)[0], "and the floor through it");
+        let beside = [place[0] + 0.45, place[1], 0.35];
+        assert_eq!(at(&dark, beside), at(&without, beside), "nowhere else");
+
+        // The eye looks from above: a ghost below the ball is behind it, one around it in front.
+        let ball = scene.ball.position;
+        let [behind, around] = [with(60, Some([1.3, -0.7, -0.4])), with(60, Some(ball))];
+        assert_eq!(at(&behind, ball), at(&without, ball));
+        assert_ne!(at(&around, ball), at(&without, ball));
     }
 }

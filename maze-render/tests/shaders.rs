@@ -53,7 +53,7 @@ macro_rules! our_layout {
 #[test]
 fn uniforms_have_the_same_layout_on_both_sides() {
     let frame = our_layout!(Frame: clip_from_maze, maze_from_clip, sun_clip_from_maze, eye, sun, up, sky, ball,
-        ball_rotation, start, goal, board, occlusion, shadow, floor);
+        ball_rotation, start, goal, board, occlusion, shadow, floor, ghost);
     let material = our_layout!(Material: mean, repeats_per_unit, roughness, reflectance, unused);
     let mut n_materials = 0;
     for shader in &SHADERS {

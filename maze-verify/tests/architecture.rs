@@ -13,6 +13,9 @@ const ARROWS: [(&str, &str); 4] = [
     ("maze-verify", "maze-core"),
 ];
 
+/// And the one that a feature adds: the engines without the report.
+const OPTIONAL_ARROWS: [(&str, &str); 1] = [("maze-app", "maze-verify")];
+
 /// What a crate must not reach, directly or through others: the physics has no window and no GPU.
 const FORBIDDEN: [(&str, &[&str]); 2] = [
     ("maze-core", &["wgpu", "winit", "egui", "image", "rapier3d"]),
@@ -29,12 +32,12 @@ fn metadata() -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// (from, to) for every dependency that is neither optional nor for development only.
-fn dependencies(metadata: &Value) -> BTreeSet<(String, String)> {
+/// (from, to) for every dependency that is not for development only: the optional ones, or the others.
+fn dependencies(metadata: &Value, optional: bool) -> BTreeSet<(String, String)> {
     let mut arrows = BTreeSet::new();
     for package in metadata["packages"].as_array().unwrap() {
         for dependency in package["dependencies"].as_array().unwrap() {
-            if dependency["kind"] != "dev" && dependency["optional"] == false {
+            if dependency["kind"] != "dev" && dependency["optional"] == optional {
                 let name = |value: &Value| value.as_str().unwrap().to_owned();
                 arrows.insert((name(&package["name"]), name(&dependency["name"])));
             }
@@ -45,18 +48,29 @@ fn dependencies(metadata: &Value) -> BTreeSet<(String, String)> {
 
 #[test]
 fn dependencies_point_one_way() {
-    let all = dependencies(&metadata());
-    let ours: BTreeSet<(&str, &str)> = all
-        .iter()
-        .map(|(from, to)| (from.as_str(), to.as_str()))
-        .filter(|(from, to)| from.starts_with("maze-") && to.starts_with("maze-"))
-        .collect();
-    assert_eq!(ours, BTreeSet::from(ARROWS));
+    let metadata = metadata();
+    for (optional, arrows) in [(false, &ARROWS[..]), (true, &OPTIONAL_ARROWS)] {
+        let all = dependencies(&metadata, optional);
+        let ours: BTreeSet<(&str, &str)> = all
+            .iter()
+            .map(|(from, to)| (from.as_str(), to.as_str()))
+            .filter(|(from, to)| from.starts_with("maze-") && to.starts_with("maze-"))
+            .collect();
+        assert_eq!(ours, arrows.iter().copied().collect());
+    }
+    let packages = metadata["packages"].as_array().unwrap();
+    let app = packages.iter().find(|package| package["name"] == "maze-app").unwrap();
+    let mut to_verify =
+        app["dependencies"].as_array().unwrap().iter().filter(|to| to["name"] == "maze-verify");
+    assert!(to_verify.all(|to| to["uses_default_features"] == false), "the game takes the engines alone");
 }
 
 #[test]
 fn physics_and_renderer_reach_nothing_they_must_not() {
-    let all = dependencies(&metadata());
+    let metadata = metadata();
+    let mut all = dependencies(&metadata, false);
+    // Of the optional ones those count that our own features add.
+    all.extend(dependencies(&metadata, true).into_iter().filter(|(from, _)| from.starts_with("maze-")));
     for (from, forbidden) in FORBIDDEN {
         let mut reached = BTreeSet::from([from.to_owned()]);
         let mut n_before = 0;

@@ -1,8 +1,9 @@
 //! `maze-app autopilot`: plays to the goal without a window.
 
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{EngineKind, Game};
+use crate::game::Game;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use maze_core::replay::MAX_TICKS;

@@ -4,10 +4,11 @@ use crate::app::{self, App, Options};
 use crate::clock::Clock;
 use crate::command::play::{Setup, parse_seconds};
 use crate::demo::Demo;
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
-use crate::game::{EngineKind, Game, to_f32};
+use crate::game::{Game, to_f32};
 use crate::overlay::{Layers, Notes};
 use crate::plot;
 use crate::quality::QualityChoice;
@@ -201,6 +202,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             phase: game.phase(),
             n_ticks: game.n_ticks(),
             tick_s: game.tick_s(),
+            ghost: game.ghost(),
             labels: &labels,
             help: true,
             notice: None,

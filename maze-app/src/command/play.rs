@@ -1,9 +1,9 @@
 //! `maze-app play`: the game in a window.
 
 use crate::app::{self, App, Options};
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::EngineKind;
 use crate::quality::QualityChoice;
 use crate::sidecar;
 use crate::source::{MazeArguments, Source};

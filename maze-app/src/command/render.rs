@@ -2,9 +2,10 @@
 
 use crate::app::view::{self, ZOOM_RANGE, zoomed};
 use crate::command::play::parse_max_tilt;
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{EngineKind, Game, to_f32};
+use crate::game::{Game, to_f32};
 use crate::overlay::{self, Layers};
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
@@ -57,6 +58,9 @@ pub(crate) struct Arguments {
     /// What is shown of the method: any of gravity, planes, search, contact, velocity, clearance, with commas between them
     #[arg(long, value_name = "LIST", value_parser = Layers::parse)]
     show: Option<Layers>,
+    /// Another engine's ball under the same tilt, as a ghost
+    #[arg(long, value_enum, value_name = "ENGINE")]
+    ghost: Option<EngineKind>,
     /// How much is spent on the picture, which may take its time on any driver
     #[arg(long, value_enum, default_value_t = QualityChoice::High)]
     quality: QualityChoice,
@@ -92,6 +96,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::known(&arguments.maze)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let mut game = Game::new(source.load()?, arguments.engine)?;
+    game.set_ghost(arguments.ghost)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;
     }

@@ -1,8 +1,9 @@
 //! `maze-app replay`: a recording played again, and whether it ends in the same state.
 
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{EngineKind, Game};
+use crate::game::Game;
 use crate::source::{MazeArguments, Source};
 use clap::{Args, Parser, ValueEnum};
 use maze_core::replay::{Recording, maze_hash, state_hash};

@@ -21,6 +21,8 @@ pub(crate) enum Action {
     PreviousLevel,
     /// Show or hide the list of keys.
     ToggleHelp,
+    /// The next of the other engines as a ghost, or none.
+    NextGhost,
     /// The next quality of the picture.
     NextQuality,
     /// Show or hide what frames take.
@@ -60,6 +62,7 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
             "r" => Action::Restart,
             "n" => Action::GoOn,
             "h" => Action::ToggleHelp,
+            "g" => Action::NextGhost,
             "q" => Action::NextQuality,
             "p" | " " => Action::TogglePause,
             "." => Action::Step,

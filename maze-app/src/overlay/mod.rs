@@ -422,7 +422,7 @@ fn motion(velocity: Vector2<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::game::EngineKind;
+    use crate::engine_kind::EngineKind;
     use maze_core::{AssembleOptions, Maze, Tilt, extrude, layout};
     use maze_render::Camera;
 

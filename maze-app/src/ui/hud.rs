@@ -9,6 +9,8 @@ use maze_core::{Maze, Phase};
 const INK: Color32 = Color32::from_rgb(245, 238, 226);
 pub(super) const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
 pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+/// As the ghost looks.
+const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
@@ -23,7 +25,7 @@ const KEYS_HEIGHT: f32 = 74.0;
 /// Where the method's panels begin: below the clock (points).
 const NOTES_TOP: f32 = 96.0;
 
-const KEYS: [(&str, &str); 11] = [
+const KEYS: [(&str, &str); 12] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
@@ -31,6 +33,7 @@ const KEYS: [(&str, &str); 11] = [
     ("R", "restart"),
     ("N", ""), // what it does depends on the maze
     ("PgUp / PgDn", "levels"),
+    ("G", "ghost"),
     ("Q", "quality"),
     ("F3", "frame times"),
     ("F11", "whole screen"),
@@ -52,6 +55,8 @@ pub(crate) struct Hud<'a> {
     pub(crate) phase: Phase,
     pub(crate) n_ticks: u64,
     pub(crate) tick_s: f64,
+    /// The ghost's engine, and how far it is from the ball (corridors).
+    pub(crate) ghost: Option<(&'static str, f64)>,
     pub(crate) labels: &'a Labels,
     pub(crate) help: bool,
     /// News of a moment.
@@ -167,6 +172,9 @@ impl Hud<'_> {
                 ui.label(RichText::new(pace).color(GOLD));
             } else if self.phase == Phase::Ready {
                 ui.label(RichText::new("tilt the board to start").color(GOLD));
+            }
+            if let Some((engine, distance)) = self.ghost {
+                ui.label(RichText::new(format!("{engine}  {distance:.3} corridors away")).color(GHOST));
             }
         });
     }

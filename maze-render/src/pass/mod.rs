@@ -3,6 +3,7 @@
 pub(crate) mod background;
 pub(crate) mod ball;
 pub(crate) mod floor_light;
+pub(crate) mod ghost;
 pub(crate) mod lines;
 pub(crate) mod material;
 pub(crate) mod maze;
@@ -59,6 +60,8 @@ pub struct Frame {
     pub shadow: [f32; 4],
     /// The floor's mean colour, linear; unused.
     pub floor: [f32; 4],
+    /// Centre; radius, 0 without a ghost.
+    pub ghost: [f32; 4],
 }
 
 /// What a frame needs beside the scene: known once a maze is set.
@@ -99,6 +102,7 @@ impl Frame {
             occlusion: board.uv_from_maze,
             shadow: shadow::blur(&sun_clip_from_maze, board.sun_map_side),
             floor: with(board.floor_mean.into(), 0.0),
+            ghost: ghost::sphere(scene),
         }
     }
 }

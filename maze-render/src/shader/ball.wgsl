@@ -4,29 +4,9 @@
 // Set where textures are in sRGB and not decoded.
 override is_plain: bool = false;
 
-struct Corner {
-    @builtin(position) clip: vec4<f32>,
-    @location(0) position: vec3<f32>,
-}
-
-struct Seen {
-    @location(0) colour: vec4<f32>,
-    @builtin(frag_depth) depth: f32,
-}
-
-// A square across the line of sight that covers the ball's outline. The ball itself is met by each pixel's ray: round at
-// any distance, and no more pixels are shaded than it has.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Corner {
-    let to_eye = frame.eye.xyz - frame.ball.xyz;
-    let distance = max(length(to_eye), 1.01 * frame.ball.w);
-    let forward = to_eye / distance;
-    let side = normalize(cross(frame.up.xyz + vec3(0.013, 0.007, 0.0), forward));
-    let corner = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
-    let outline = frame.ball.w * distance / sqrt(distance * distance - frame.ball.w * frame.ball.w);
-    let reach = outline + pixel_at(frame.ball.xyz);
-    let position = frame.ball.xyz + reach * (corner.x * side + corner.y * cross(forward, side));
-    return Corner(frame.clip_from_maze * vec4(position, 1.0), position);
+    return corner_around(frame.ball, index);
 }
 
 // -1 to 1 across an edge, smooth over a pixel.
@@ -66,16 +46,12 @@ fn mirrored_room(p: vec3<f32>, r: vec3<f32>) -> vec3<f32> {
 @fragment
 fn fragment(in: Corner) -> Seen {
     let ray = normalize(in.position - frame.eye.xyz);
-    let from_ball = frame.eye.xyz - frame.ball.xyz;
-    let nearest = -dot(from_ball, ray);
-    let radius = frame.ball.w;
-    let miss2 = dot(from_ball, from_ball) - nearest * nearest;
-    // How much of the pixel the ball covers; rays that just miss it show its outline.
-    let cover = clamp((radius - sqrt(max(miss2, 0.0))) / pixel_at(frame.ball.xyz) + 0.5, 0.0, 1.0);
-    if cover <= 0.0 {
+    let met = met(frame.ball, ray);
+    if met.cover <= 0.0 {
         discard;
     }
-    let p = frame.eye.xyz + ray * (nearest - sqrt(max(radius * radius - miss2, 0.0)));
+    let radius = frame.ball.w;
+    let p = met.position;
     let n = normalize(p - frame.ball.xyz);
     let v = -ray;
     let nv = max(dot(n, v), 0.0);
@@ -112,5 +88,5 @@ fn fragment(in: Corner) -> Seen {
     let seen = mix(polished, scattered, 0.9 * satin) * fresnel(f0, nv);
     let sun_glint = min(glint(n, v, roughness, f0) * SUN_LIGHT * sunlight, vec3(4.0));
     let clip = frame.clip_from_maze * vec4(p, 1.0);
-    return Seen(vec4(picture(seen + sun_glint).rgb, cover), clip.z / clip.w);
+    return Seen(vec4(picture(seen + sun_glint).rgb, met.cover), clip.z / clip.w);
 }

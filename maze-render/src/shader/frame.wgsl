@@ -16,6 +16,7 @@ struct Frame {
     occlusion: vec4<f32>,     // occlusion map from maze x, y: scale; offset
     shadow: vec4<f32>,        // blur in the sun's map x, y; distance to step off a surface; unused
     floor: vec4<f32>,         // the floor's mean colour, linear; unused
+    ghost: vec4<f32>,         // centre; radius
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

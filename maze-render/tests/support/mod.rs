@@ -117,6 +117,7 @@ impl Board {
             camera: Camera::fitted(self.half_size(), aspect, MAX_TILT_RAD),
             world_from_maze: UnitQuaternion::identity(),
             ball: BallView { position: [x, y, 0.35], radius: 0.35, rotation: UnitQuaternion::identity() },
+            ghost: None,
             start: Marker { position: [x, y], radius: 0.42 },
             goal: Marker { position: self.cell(self.n_cells[0] - 1, self.n_cells[1] - 1), radius: 0.45 },
             goal_glow: 0.5,
