@@ -2,6 +2,7 @@
 
 mod graphics;
 mod idle;
+mod picture;
 pub(crate) mod view;
 
 use crate::clock::Clock;
@@ -12,17 +13,16 @@ use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
 use crate::game::{Game, to_f32};
 use crate::input::{self, Action, TiltControl};
+use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
-use crate::ui::{FramesPanel, Hud, Labels};
+use crate::ui::{self, FramesPanel, Hud, Labels};
 use graphics::{Drawn, Graphics};
 use idle::Idle;
-use image::ImageFormat;
 use maze_core::{Event, Maze, Phase};
-use maze_render::{Camera, Quality, TextureSet};
-use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use maze_render::{Quality, TextureSet};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use view::View;
 use winit::application::ApplicationHandler;
@@ -103,6 +103,7 @@ pub(crate) struct App {
     idle: Idle,
     cursor: PhysicalPosition<f64>,
     help: bool,
+    layers: Layers,
     /// News of a moment, such as why a dropped file was not loaded, and when.
     notice: Option<(String, Instant)>,
     hidden: bool,
@@ -143,6 +144,7 @@ impl App {
             idle: Idle::default(),
             cursor: PhysicalPosition::default(),
             help: true,
+            layers: Layers::default(),
             notice: None,
             hidden: false,
             n_ticks: 0,
@@ -216,6 +218,12 @@ impl App {
             Action::Level => self.control.level(),
             Action::ToggleHelp => self.help = !self.help,
             Action::ToggleFrames => self.shows_frames = !self.shows_frames,
+            Action::ToggleLayer(layer) => self.layers.toggle(layer),
+            Action::HideLayers => self.layers = Layers::default(),
+            Action::TogglePause => self.clock.toggle_pause(),
+            Action::Step => self.clock.step(),
+            Action::Slower => self.clock.slower(),
+            Action::Faster => self.clock.faster(),
             Action::ToggleFullscreen => self.graphics.iter().for_each(Graphics::toggle_fullscreen),
             Action::NextGhost => self.game.next_ghost()?,
             Action::NextQuality => self.next_quality()?,
@@ -277,32 +285,6 @@ impl App {
         Ok(())
     }
 
-    fn notify(&mut self, notice: String) {
-        self.notice = Some((notice, Instant::now()));
-    }
-
-    fn next_quality(&mut self) -> Result<(), Failure> {
-        let Some(graphics) = &mut self.graphics else { return Ok(()) };
-        let quality = graphics.quality().next();
-        graphics.set_quality(quality, &self.textures);
-        self.notify(format!("quality: {}", quality.name()));
-        self.load_into_graphics()
-    }
-
-    /// What is shown, without the HUD, into the working directory. That this may fail is no reason to end the game.
-    fn screenshot(&mut self) {
-        let (Some(graphics), Some(scene)) = (&mut self.graphics, self.idle.scene()) else { return };
-        let saved = graphics.screenshot(&scene).and_then(|picture| {
-            let mut png = Cursor::new(Vec::new());
-            picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
-            files::write_numbered(Path::new(""), "maze", "png", png.get_ref())
-        });
-        self.notify(match saved {
-            Ok(path) => format!("saved {}", path.display()),
-            Err(failure) => failure.to_string(),
-        });
-    }
-
     fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) -> Result<(), Failure> {
         let PhysicalKey::Code(key) = event.physical_key else { return Ok(()) };
         let pressed = event.state == ElementState::Pressed;
@@ -312,8 +294,10 @@ impl App {
             self.control.key(direction, pressed);
         }
         match input::action_of(&event.logical_key) {
-            // Held zoom keys go on zooming; everything else happens once a press.
-            Some(action @ (Action::ZoomIn | Action::ZoomOut)) if pressed => self.act(event_loop, action),
+            // Held zoom and step keys go on; everything else happens once a press.
+            Some(action @ (Action::ZoomIn | Action::ZoomOut | Action::Step)) if pressed => {
+                self.act(event_loop, action)
+            }
             Some(action) if pressed && !event.repeat => self.act(event_loop, action),
             _ => Ok(()),
         }
@@ -373,6 +357,9 @@ impl App {
             labels: &self.labels,
             help: self.help,
             notice: notice.map(|(text, _)| text.as_str()),
+            layers: self.layers,
+            notes: &Notes::default(),
+            pace: self.clock.pace(),
             frames: self.shows_frames.then_some(FramesPanel {
                 log: &self.frame_log,
                 quality: quality.name(),
@@ -382,10 +369,13 @@ impl App {
         };
         let held = self.control.is_dragged().then_some(&self.control);
         let pose = self.game.pose(self.clock.alpha(), held);
-        let whole = Camera::fitted(self.game.half_size(), aspect, self.max_tilt_rad);
+        let left = ui::covered_width(self.layers, size_points);
+        let whole = view::fitted(self.game.half_size(), aspect, self.max_tilt_rad, left);
         let whole = view::with_room_below(whole, hud.covered_part(size_points));
         self.view.update(elapsed, whole, pose.ball_in_world().cast());
-        let scene = self.game.scene(&pose, self.view.camera());
+        let mut scene = self.game.scene(&pose, view::beside(self.view.camera(), aspect, left));
+        let notes = overlay::add(self.layers, &self.game, &mut scene, size);
+        let hud = Hud { notes: &notes, ..hud };
         if self.idle.may_skip(now, &scene, &hud, size) {
             return Ok(());
         }

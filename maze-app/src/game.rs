@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::input::TiltControl;
 use crate::source::Source;
 use maze_core::replay::{self, Recording};
-use maze_core::{Ball, Engine, Event, Maze, Phase, Run, Tick, Tilt, gravity};
+use maze_core::{Ball, Engine, Event, Hit, Maze, Phase, Run, Tick, Tilt, gravity};
 use maze_render::{BallView, Camera, GhostView, Marker, Scene};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
@@ -24,6 +24,7 @@ pub(crate) struct Game {
     ghost: Option<(EngineKind, Box<dyn Engine>)>,
     run: Run,
     last_tick: Tick,
+    last_hit: Option<Hit>,
     tilt: Tilt,
     /// One for each tick of the engine since the start, and where the last of them left the ball.
     tilts: Vec<Tilt>,
@@ -64,6 +65,7 @@ impl Game {
             ghost: None,
             run: Run::new(&maze),
             last_tick: Tick::default(),
+            last_hit: None,
             tilt: Tilt::LEVEL,
             tilts: Vec::new(),
             played_to: Ball::at(maze.start),
@@ -114,6 +116,11 @@ impl Game {
     /// What the engine said of the last tick.
     pub(crate) fn last_tick(&self) -> &Tick {
         &self.last_tick
+    }
+
+    /// The last hit since the start, in this tick or an earlier one.
+    pub(crate) fn last_hit(&self) -> Option<&Hit> {
+        self.last_hit.as_ref()
     }
 
     pub(crate) fn phase(&self) -> Phase {
@@ -172,6 +179,7 @@ impl Game {
         self.run = Run::new(&self.maze);
         self.tilt = Tilt::LEVEL;
         self.tilts.clear();
+        self.last_hit = None;
         self.played_to = self.engine.ball();
         self.current = Pose::at_start(&self.maze);
         self.previous = self.current;
@@ -195,7 +203,9 @@ impl Game {
             return self.settle().map(|()| Vec::new());
         }
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &world_from_maze);
-        let tick = self.engine.tick(acceleration).map_err(Failure::bad_input)?;
+        let last_hit = &mut self.last_hit;
+        let mut observer = |hit: &Hit| *last_hit = Some(*hit);
+        let tick = self.engine.tick_observed(acceleration, &mut observer).map_err(Failure::bad_input)?;
         if let Some((_, ghost)) = &mut self.ghost {
             ghost.tick(acceleration).map_err(Failure::bad_input)?;
             self.current.ghost = Some(ghost.ball().position);
@@ -260,6 +270,7 @@ impl Game {
             goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
             lines: Vec::new(),
             patches: Vec::new(),
+            shows_maze: true,
         }
     }
 

@@ -14,6 +14,7 @@ mod input;
 mod levels;
 mod maze_file;
 mod measures;
+mod overlay;
 mod picture;
 mod plot;
 mod progress;

@@ -349,6 +349,8 @@ fn bad_usage_is_one_line() {
     refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--size", "0x9"]), "at least 1x1");
     refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.jpg"]), "expected a name that ends in .png");
     refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--tilt", "99,0"]), "in degrees");
+    let known = "expected any of gravity, planes, search, contact, velocity, clearance";
+    refused(&mut maze_app(&["render", DEFAULT_MAZE, "--out", "a.png", "--show", "search,quarks"]), known);
 }
 
 #[test]

@@ -54,7 +54,11 @@ fn difference(a: &RgbImage, b: &RgbImage) -> (f64, RgbImage) {
 }
 
 fn expect_golden(name: &str, arguments: &[&str]) {
-    let png = render(arguments);
+    expect_golden_sized(name, SIZE, arguments);
+}
+
+fn expect_golden_sized(name: &str, size: &str, arguments: &[&str]) {
+    let png = render_sized(size, arguments);
     let path = Path::new(GOLDENS).join(format!("{name}.png"));
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
         std::fs::write(&path, &png).unwrap();
@@ -86,6 +90,46 @@ fn a_tilted_maze_with_the_ball_on_its_way_looks_as_it_should() {
 fn zoomed_in_the_ball_and_what_is_around_it_look_as_they_should() {
     expect_golden("zoomed", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6"]);
     expect_golden("zoomed-low", &["--tilt", "3,-5", "--ticks", "40", "--zoom", "6", "--quality", "low"]);
+}
+
+/// Wide enough for a panel and something to see beside it.
+const PANEL_SIZE: &str = "640x340";
+
+#[test]
+fn each_overlay_shows_what_it_should() {
+    for (layer, arguments) in [
+        ("gravity", "--tilt 9,-7 --ticks 60 --zoom 2"),
+        ("planes", "--tilt -6,5"),
+        ("search", "--tilt 9,-7 --ticks 14 --zoom 2"),
+        ("contact", "--tilt 9,-7 --ticks 60 --zoom 6 --engine published"),
+        ("velocity", "--tilt 9,-7 --ticks 60 --zoom 3"),
+        ("clearance", "--tilt 9,-7 --ticks 60 --zoom 2"),
+    ] {
+        let mut words: Vec<&str> = arguments.split(' ').collect();
+        words.extend(["--show", layer, "--quality", "low"]);
+        expect_golden_sized(layer, PANEL_SIZE, &words);
+    }
+}
+
+#[test]
+fn planes_are_red_green_cyan_and_blue() {
+    type IsColour = fn([i32; 3]) -> bool;
+    let plain = decoded(&render(&["--quality", "low"]));
+    let coloured = decoded(&render(&["--quality", "low", "--show", "planes"]));
+    // The dominant channels of each facing's colour, counted where the plain picture has none of it.
+    let count = |picture: &RgbImage, is_it: IsColour| {
+        picture.pixels().filter(|pixel| is_it(pixel.0.map(i32::from))).count()
+    };
+    let colours: [(&str, IsColour); 4] = [
+        ("red", |[r, g, b]| 170 < r && g < 110 && b < 100),
+        ("green", |[r, g, b]| 150 < g && r + 50 < g && b + 50 < g),
+        ("cyan", |[r, g, b]| 150 < g && 150 < b && r + 50 < g),
+        ("blue", |[r, g, b]| 150 < b && r + 50 < b && g + 30 < b),
+    ];
+    for (name, is_it) in colours {
+        let (before, after) = (count(&plain, is_it), count(&coloured, is_it));
+        assert!(40 < after && 20 * before < after, "{name}: {before} pixels before, {after} after");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use serde::Deserialize;
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
@@ -116,12 +116,16 @@ struct Session {
 
 impl Session {
     fn open(arguments: &[&str]) -> Self {
+        Self::open_with(&[&["--seed", "5"], arguments].concat())
+    }
+
+    fn open_with(arguments: &[&str]) -> Self {
         let directory = tempfile::tempdir().unwrap();
         let screen = Screen::start();
         let log = directory.path().join("state.jsonl");
         let game = start(
             Command::new(env!("CARGO_BIN_EXE_maze-app"))
-                .args(["play", "--seed", "5", "--state-log"])
+                .args(["play", "--state-log"])
                 .arg(&log)
                 .args(arguments)
                 .current_dir(directory.path())
@@ -342,6 +346,75 @@ fn keys_show_ghosts_change_the_quality_show_frame_times_fill_the_screen_and_save
         session.xdotool(&["key", "F11"]);
     }
     assert!(!session.directory.path().join("maze-0003.png").exists());
+    session.xdotool(&["key", "Escape"]);
+    assert!(session.exit_status().success());
+}
+
+/// A pixel of the window and of the offscreen picture is the same within a rounding of colour; the formats differ.
+const PIXEL_TOLERANCE: u8 = 6;
+
+/// Most pixels that may differ by more: the ball came to rest from another bounce, so its pattern and what a contact's panel
+/// says may differ in a last digit.
+const MAX_DIFFERENT_PART: f64 = 0.002;
+
+fn different_part(a: &Path, b: &Path) -> f64 {
+    let [a, b] = [a, b].map(|path| image::open(path).unwrap().into_rgb8());
+    assert_eq!(a.dimensions(), b.dimensions());
+    let differs = |(a, b): &(&image::Rgb<u8>, &image::Rgb<u8>)| {
+        a.0.iter().zip(b.0).any(|(a, b)| PIXEL_TOLERANCE < a.abs_diff(b))
+    };
+    let n_different = a.pixels().zip(b.pixels()).filter(differs).count();
+    n_different as f64 / f64::from(a.width() * a.height())
+}
+
+#[test]
+fn a_pause_holds_the_ticks_and_each_overlay_is_as_render_draws_it() {
+    // Held to the right, the ball of level 1 comes to rest at the wall beside its start.
+    let mut session = Session::open_with(&["--level", "1", "--max-tilt", "10"]);
+    session.xdotool(&["keydown", "Right"]);
+    let resting = session.wait_for("the ball to have rested at the wall", |state| {
+        let rests = state.velocity == [0.0, 0.0];
+        rests && 9.0 < state.tilt_degrees() && 300 < state.clock_ticks
+    });
+    session.xdotool(&["key", "p"]);
+    std::thread::sleep(Duration::from_millis(500));
+    let paused = session.last().tick;
+    std::thread::sleep(Duration::from_millis(500));
+    assert_eq!(session.last().tick, paused, "a pause holds the ticks");
+    for n in 1..=3 {
+        session.xdotool(&["key", "period"]);
+        until("a single step", || (session.last().tick == paused + n).then_some(()));
+    }
+    session.xdotool(&["key", "h"]);
+    let layers = ["gravity", "planes", "search", "contact", "velocity", "clearance"];
+    for (n, layer) in (1..).zip(layers) {
+        session.xdotool(&["key", "0", &format!("{n}")]);
+        // Until a frame shows it.
+        std::thread::sleep(Duration::from_millis(700));
+        session.xdotool(&["key", "F12"]);
+        let shot = session.directory.path().join(format!("maze-{n:04}.png"));
+        until("a picture", || image::image_dimensions(&shot).ok());
+        let drawn = session.directory.path().join(format!("{layer}.png"));
+        let status = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+            .args(["render", "--level", "1", "--ticks", "600", "--quality", "low", "--max-tilt", "10"])
+            .args(["--tilt", &format!("{},0", resting.tilt_degrees())])
+            .args(["--show", layer, "--out"])
+            .arg(&drawn)
+            .env("XDG_RUNTIME_DIR", session.directory.path())
+            .status();
+        assert!(status.unwrap().success());
+        let part = different_part(&shot, &drawn);
+        if MAX_DIFFERENT_PART < part {
+            let target = Path::new(env!("CARGO_TARGET_TMPDIR"));
+            std::fs::copy(&shot, target.join(format!("{layer}.window.png"))).unwrap();
+            std::fs::copy(&drawn, target.join(format!("{layer}.render.png"))).unwrap();
+            panic!("{:.2} % of {layer} differs; see {}", 100.0 * part, target.display());
+        }
+    }
+    assert_eq!(session.last().tick, paused + 3);
+    session.xdotool(&["keyup", "Right"]);
+    session.xdotool(&["key", "space", "minus", "equal"]);
+    session.expect_alive("the end of the pause");
     session.xdotool(&["key", "Escape"]);
     assert!(session.exit_status().success());
 }

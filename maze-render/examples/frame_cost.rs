@@ -104,5 +104,6 @@ fn scene(maze: &Maze, turn: f32) -> Scene {
         goal_glow: 0.5,
         lines: vec![],
         patches: vec![],
+        shows_maze: true,
     }
 }

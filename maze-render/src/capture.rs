@@ -22,6 +22,21 @@ pub fn capture(
     size: [u32; 2],
     scene: &Scene,
 ) -> Result<RgbaImage, GpuError> {
+    capture_over(gpu, renderer, size, scene, |_, _| {})
+}
+
+/// [`capture`] with more recorded over the scene, such as the letters of a [`crate::Painter`].
+///
+/// # Errors
+///
+/// As [`capture`].
+pub fn capture_over(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    size: [u32; 2],
+    scene: &Scene,
+    draw_over: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::TextureView),
+) -> Result<RgbaImage, GpuError> {
     let [width, height] = size;
     let max = gpu.max_side();
     if width == 0 || height == 0 || max < width || max < height {
@@ -55,7 +70,9 @@ pub fn capture(
         mapped_at_creation: false,
     });
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    renderer.draw(gpu, &mut encoder, &texture.create_view(&Default::default()), size, scene);
+    let view = texture.create_view(&Default::default());
+    renderer.draw(gpu, &mut encoder, &view, size, scene);
+    draw_over(&mut encoder, &view);
     encoder.copy_texture_to_buffer(
         texture.as_image_copy(),
         wgpu::TexelCopyBufferInfo {

@@ -44,7 +44,7 @@ mod texture;
 mod timer;
 
 pub use camera::{Camera, FIELD_OF_VIEW_RAD, PITCH_RAD};
-pub use capture::{CAPTURE_FORMAT, capture};
+pub use capture::{CAPTURE_FORMAT, capture, capture_over};
 pub use gpu::{Acquired, Gpu, GpuError, WindowTarget};
 pub use paint::{PaintBatch, PaintVertex, Painter};
 pub use quality::Quality;

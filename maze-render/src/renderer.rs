@@ -313,6 +313,7 @@ impl Renderer {
         if let Some(content) = &self.content {
             pass.set_bind_group(1, &content.light_group, &[]);
             match &self.maze {
+                _ if !scene.shows_maze => {}
                 Surfaces::Lit(maze) => maze.draw(&mut pass, &self.materials, &content.mesh),
                 Surfaces::Plain(plain, _) => plain.draw(&mut pass, &self.materials, &content.mesh),
             }
@@ -320,7 +321,9 @@ impl Renderer {
         // After the maze: only what nothing covers is shaded.
         self.background.draw(&mut pass);
         if let Some(content) = &self.content {
-            if let Surfaces::Plain(plain, _) = &self.maze {
+            if let Surfaces::Plain(plain, _) = &self.maze
+                && scene.shows_maze
+            {
                 plain.draw_over(&mut pass, &self.materials, &content.mesh);
             }
             if shows_ball {

@@ -11,6 +11,8 @@ pub struct Scene {
     pub camera: Camera,
     /// How the maze is tilted; turns about the board's centre.
     pub world_from_maze: UnitQuaternion<f32>,
+    /// Without it the ball and its lines and patches stand alone above the table.
+    pub shows_maze: bool,
     /// The ball.
     pub ball: BallView,
     /// Another ball beside it, as of tinted glass; throws no shadow.

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Stopwatch};
 use crate::input;
+use crate::overlay::Notes;
 use crate::quality::QualityChoice;
 use crate::ui::{self, Hud, Overlay};
 use image::RgbaImage;
@@ -103,10 +104,10 @@ impl Graphics {
         self.window.set_fullscreen((!is_on).then_some(Fullscreen::Borderless(None)));
     }
 
-    /// The scene without the HUD.
-    pub(super) fn screenshot(&mut self, scene: &Scene) -> Result<RgbaImage, Failure> {
-        let size = self.target.size();
-        maze_render::capture(&self.gpu, &mut self.renderer, size, scene).map_err(Failure::bad_input)
+    /// The scene and what is said of the method, without the rest of the HUD.
+    pub(super) fn screenshot(&mut self, scene: &Scene, notes: &Notes) -> Result<RgbaImage, Failure> {
+        let (size, scale) = (self.target.size(), self.scale());
+        ui::picture(&self.gpu, &mut self.renderer, size, scale, scene, notes).map_err(Failure::bad_input)
     }
 
     /// A new device in place of a lost one. The maze has to be set again.
@@ -194,7 +195,7 @@ impl Graphics {
             timer.begin(&mut encoder, number);
         }
         self.renderer.draw(&self.gpu, &mut encoder, &view, size, scene);
-        self.overlay.draw(&self.gpu, &mut encoder, &view, size, self.scale(), hud);
+        self.overlay.draw(&self.gpu, &mut encoder, &view, size, self.scale(), |ui| hud.show(ui));
         if let Some(timer) = &mut self.timer {
             timer.end(&mut encoder);
         }

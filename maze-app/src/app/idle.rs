@@ -1,5 +1,6 @@
 //! Whether a frame would show anything new: where nothing moves, nothing is drawn, and the machine rests.
 
+use crate::overlay::{Layers, Notes};
 use crate::ui::Hud;
 use maze_core::Phase;
 use maze_render::Scene;
@@ -28,6 +29,9 @@ struct Shown {
     ghost: Option<(&'static str, f64)>,
     help: bool,
     notice: Option<String>,
+    layers: Layers,
+    notes: Notes,
+    pace: Option<&'static str>,
 }
 
 impl Idle {
@@ -41,6 +45,9 @@ impl Idle {
             ghost: hud.ghost,
             help: hud.help,
             notice: hud.notice.map(str::to_owned),
+            layers: hud.layers,
+            notes: hud.notes.clone(),
+            pace: hud.pace,
         };
         let is_same = hud.frames.is_none() && self.shown.as_ref() == Some(&shown);
         self.shown = Some(shown);
@@ -55,9 +62,9 @@ impl Idle {
         self.times = None;
     }
 
-    /// What the last frame showed of the maze.
-    pub(super) fn scene(&self) -> Option<Scene> {
-        self.shown.as_ref().map(|shown| shown.scene.clone())
+    /// What the last frame showed of the maze, and of the method.
+    pub(super) fn picture(&self) -> Option<(Scene, Notes)> {
+        self.shown.as_ref().map(|shown| (shown.scene.clone(), shown.notes.clone()))
     }
 }
 
@@ -70,7 +77,7 @@ mod tests {
 
     #[test]
     fn a_still_picture_is_drawn_twice_a_second_and_a_moving_one_always() {
-        let labels = Labels::default();
+        let (labels, notes) = (Labels::default(), Notes::default());
         let hud = |n_ticks| Hud {
             phase: Phase::Ready,
             n_ticks,
@@ -79,6 +86,9 @@ mod tests {
             labels: &labels,
             help: true,
             notice: None,
+            layers: Layers::default(),
+            notes: &notes,
+            pace: None,
             frames: None,
         };
         let marker = Marker { position: [0.0; 2], radius: 1.0 };
@@ -92,6 +102,7 @@ mod tests {
             goal_glow: 0.0,
             lines: vec![],
             patches: vec![],
+            shows_maze: true,
         };
         let begun = Instant::now();
         let frames = (0..600).map(|i| begun + Duration::from_millis(10 * i));

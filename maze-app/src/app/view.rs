@@ -17,6 +17,21 @@ const FOLLOW_ZOOM: f64 = 2.0;
 /// Time in which the view covers all but a third of its way (s): quick, and without a jerk.
 const SETTLE_S: f64 = 0.09;
 
+/// Room beside a covered part, as a part of it: a board off the middle of the view reaches farther out.
+const ROOM_BESIDE: f32 = 0.1;
+
+/// A view of the whole board that [`beside`] a covered part of the width still holds all of it.
+pub(crate) fn fitted(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32, covered: f32) -> Camera {
+    Camera::fitted(half_size, aspect * (1.0 - (1.0 + ROOM_BESIDE) * covered), max_tilt_rad)
+}
+
+/// The same view with its middle in what is left of the width when a part of it, on the left, is covered.
+pub(crate) fn beside(camera: Camera, aspect: f32, covered: f32) -> Camera {
+    let shift = covered * aspect * (FIELD_OF_VIEW_RAD / 2.0).tan() * camera.distance;
+    let target = Vector3::from(camera.target) - Vector3::new(shift, 0.0, 0.0);
+    Camera { target: target.into(), ..camera }
+}
+
 /// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
 pub(super) fn with_room_below(camera: Camera, part: f32) -> Camera {
     let distance = camera.distance / (1.0 - part);
@@ -99,6 +114,13 @@ mod tests {
         let [x, y] = middle(with_room_below(WHOLE, 0.2));
         // Above a free fifth the middle lies at 40 % of the height.
         assert!((x - 500.0).abs() < 0.1 && (y - 400.0).abs() < 0.1, "{x}, {y}");
+    }
+
+    #[test]
+    fn beside_a_covered_part_the_middle_is_that_of_the_rest() {
+        let [x, y] = beside(WHOLE, 2.0, 0.25).project([1000, 500], WHOLE.target).unwrap();
+        // A quarter is covered: the rest goes from 250 to 1000.
+        assert!((x - 625.0).abs() < 0.1 && (y - 250.0).abs() < 0.1, "{x}, {y}");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
 use crate::game::{Game, to_f32};
+use crate::overlay::{Layers, Notes};
 use crate::plot;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
@@ -205,6 +206,9 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             labels: &labels,
             help: true,
             notice: None,
+            layers: Layers::default(),
+            notes: &Notes::default(),
+            pace: None,
             frames: None,
         };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -212,7 +216,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             timer.begin(&mut encoder, log.next_number());
         }
         renderer.draw(&gpu, &mut encoder, &view, size, &scene);
-        overlay.draw(&gpu, &mut encoder, &view, size, 1.0, &hud);
+        overlay.draw(&gpu, &mut encoder, &view, size, 1.0, |ui| hud.show(ui));
         if let Some(timer) = &mut timer {
             timer.end(&mut encoder);
         }

@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     exit_after: Option<Duration>,
 }
 
-fn parse_max_tilt(text: &str) -> Result<f64, String> {
+pub(crate) fn parse_max_tilt(text: &str) -> Result<f64, String> {
     let degrees = text.parse().ok().filter(|degrees| (1.0..=45.0).contains(degrees));
     degrees.ok_or_else(|| "expected 1 to 45 degrees".to_owned())
 }

@@ -1,19 +1,21 @@
 //! `maze-app render`: one picture, no window.
 
-use crate::app::view::{ZOOM_RANGE, zoomed};
+use crate::app::view::{self, ZOOM_RANGE, zoomed};
+use crate::command::play::parse_max_tilt;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::Game;
+use crate::game::{Game, to_f32};
+use crate::overlay::{self, Layers};
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
 use crate::sidecar;
 use crate::source::{KnownMazeArguments, Source};
-use crate::ui::to_points;
+use crate::ui::{self, to_points};
 use clap::Args;
 use image::ImageFormat;
 use maze_core::Tilt;
-use maze_render::{Camera, Gpu, Renderer};
+use maze_render::{Gpu, Renderer};
 use std::io::Cursor;
 use std::path::PathBuf;
 
@@ -26,7 +28,8 @@ const MAX_TILT_DEGREES: f64 = 45.0;
 #[derive(Args)]
 #[command(
     after_help = "Examples:\n  maze-app render my_maze.obj --out picture.png --tilt 8,-5 --ticks 60\n  \
-                        maze-app render --level 3 --out level3.png"
+                        maze-app render --level 3 --out level3.png\n  \
+                        maze-app render --level 3 --tilt 9,-7 --ticks 40 --zoom 4 --show search,contact --out search.png"
 )]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -43,12 +46,18 @@ pub(crate) struct Arguments {
     /// How many times nearer than a view of the whole maze, 0.5 to 6; from 2 on with the ball in the middle
     #[arg(long, value_name = "Z", value_parser = parse_zoom, default_value = "1")]
     zoom: f64,
+    /// Degrees of tilt that the view has room for: 20 for a picture as in the game [default: the tilt]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_max_tilt)]
+    max_tilt: Option<f64>,
     /// Ticks of 0.03 s under that tilt before the picture, at most 120000
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=i64::from(MAX_TICKS)))]
     ticks: u32,
     /// How the ball's motion is computed
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
+    /// What is shown of the method: any of gravity, planes, search, contact, velocity, clearance, with commas between them
+    #[arg(long, value_name = "LIST", value_parser = Layers::parse)]
+    show: Option<Layers>,
     /// Another engine's ball under the same tilt, as a ghost
     #[arg(long, value_enum, value_name = "ENGINE")]
     ghost: Option<EngineKind>,
@@ -100,13 +109,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
-    let [x, y] = arguments.tilt.half_tangents().map(crate::game::to_f32);
+    let [x, y] = arguments.tilt.half_tangents().map(to_f32);
     let tilt_rad = 2.0 * (x * x + y * y).sqrt().atan();
+    let tilt_rad = arguments.max_tilt.map_or(tilt_rad, |degrees| to_f32(degrees.to_radians()));
     let pose = game.pose(1.0, None);
-    let whole = Camera::fitted(game.half_size(), aspect, tilt_rad);
+    let layers = arguments.show.unwrap_or_default();
+    let left = ui::covered_width(layers, arguments.size.map(|side| to_points(side, 1.0)));
+    let whole = view::fitted(game.half_size(), aspect, tilt_rad, left);
     let camera = zoomed(whole, arguments.zoom, pose.ball_in_world().cast());
-    let scene = game.scene(&pose, camera);
-    let picture = maze_render::capture(&gpu, &mut renderer, arguments.size, &scene);
+    let mut scene = game.scene(&pose, view::beside(camera, aspect, left));
+    let notes = overlay::add(layers, &game, &mut scene, arguments.size);
+    let picture = ui::picture(&gpu, &mut renderer, arguments.size, 1.0, &scene, &notes);
     let picture = picture.map_err(Failure::bad_input)?;
     let mut png = Cursor::new(Vec::new());
     picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;

@@ -1,6 +1,7 @@
 //! What each key does.
 
 use super::tilt_control::Direction;
+use crate::overlay::Layer;
 use winit::keyboard::{Key, KeyCode, NamedKey};
 
 /// A key's effect that is not a tilt.
@@ -30,6 +31,16 @@ pub(crate) enum Action {
     Screenshot,
     /// The whole screen, or a window again.
     ToggleFullscreen,
+    /// Show or hide one thing of the method.
+    ToggleLayer(Layer),
+    /// Hide all of them.
+    HideLayers,
+    /// Stop the game's time, or let it go on.
+    TogglePause,
+    /// One tick, and then a pause.
+    Step,
+    Slower,
+    Faster,
     Quit,
 }
 
@@ -43,6 +54,7 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
         Key::Named(NamedKey::F3) => Action::ToggleFrames,
         Key::Named(NamedKey::F11) => Action::ToggleFullscreen,
         Key::Named(NamedKey::F12) => Action::Screenshot,
+        Key::Named(NamedKey::Space) => Action::TogglePause,
         Key::Character(text) => match text.to_ascii_lowercase().as_str() {
             "b" => Action::ZoomIn,
             "s" => Action::ZoomOut,
@@ -52,7 +64,15 @@ pub(crate) fn action_of(key: &Key) -> Option<Action> {
             "h" => Action::ToggleHelp,
             "g" => Action::NextGhost,
             "q" => Action::NextQuality,
-            _ => return None,
+            "p" | " " => Action::TogglePause,
+            "." => Action::Step,
+            "-" => Action::Slower,
+            "=" | "+" => Action::Faster,
+            "0" => Action::HideLayers,
+            digit => {
+                let number: usize = digit.parse().ok()?;
+                Action::ToggleLayer(*Layer::ALL.get(number.checked_sub(1)?)?)
+            }
         },
         _ => return None,
     })

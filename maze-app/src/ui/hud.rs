@@ -1,6 +1,7 @@
 //! Clock, maze, keys, and the goal.
 
 use super::FramesPanel;
+use crate::overlay::{Layer, Layers, Notes};
 use crate::source::{Onwards, Source};
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
 use maze_core::{Maze, Phase};
@@ -13,15 +14,18 @@ const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
 /// Distance of the panels from the window's edge (points).
-const MARGIN: f32 = 14.0;
+pub(super) const MARGIN: f32 = 14.0;
 
 /// Below this width or height (points) only the clock is shown.
 const SMALL: [f32; 2] = [520.0, 300.0];
 
-/// The list of keys in one line, with its margins (points).
-const KEYS_HEIGHT: f32 = 50.0;
+/// The list of keys in two lines, with its margins (points).
+const KEYS_HEIGHT: f32 = 74.0;
 
-const KEYS: [(&str, &str); 14] = [
+/// Where the method's panels begin: below the clock (points).
+const NOTES_TOP: f32 = 96.0;
+
+const KEYS: [(&str, &str); 12] = [
     ("drag", "tilt"),
     ("arrows, W A X D", "tilt"),
     ("T", "level"),
@@ -34,6 +38,14 @@ const KEYS: [(&str, &str); 14] = [
     ("F3", "frame times"),
     ("F11", "whole screen"),
     ("F12", "picture to a file"),
+];
+
+/// After the overlays, which are 1 to 6, in the second line.
+const METHOD_KEYS: [(&str, &str); 6] = [
+    ("0", "none"),
+    ("P, Space", "pause"),
+    ("dot", "one tick"),
+    ("- / =", "slower / faster"),
     ("H", "hide keys"),
     ("Esc", "quit"),
 ];
@@ -49,6 +61,11 @@ pub(crate) struct Hud<'a> {
     pub(crate) help: bool,
     /// News of a moment.
     pub(crate) notice: Option<&'a str>,
+    /// What of the method is shown, and what is written of it.
+    pub(crate) layers: Layers,
+    pub(crate) notes: &'a Notes,
+    /// Said while the game does not run at its usual speed.
+    pub(crate) pace: Option<&'static str>,
     /// What frames take, when asked for.
     pub(crate) frames: Option<FramesPanel<'a>>,
 }
@@ -94,7 +111,7 @@ pub(super) fn style(context: &Context) {
     });
 }
 
-fn panel() -> Frame {
+pub(super) fn panel() -> Frame {
     Frame::new().fill(GLASS).corner_radius(8).inner_margin(Margin::symmetric(14, 8))
 }
 
@@ -104,8 +121,9 @@ impl Hud<'_> {
         if self.help && !is_small(size_points) { KEYS_HEIGHT / size_points[1] } else { 0.0 }
     }
 
-    pub(super) fn show(&self, ui: &mut Ui) {
+    pub(crate) fn show(&self, ui: &mut Ui) {
         let screen = ui.ctx().content_rect();
+        self.notes.show(ui, NOTES_TOP);
         self.clock(ui.ctx());
         if self.phase == Phase::Finished {
             self.goal_reached(ui.ctx());
@@ -150,7 +168,9 @@ impl Hud<'_> {
                 ui.label(RichText::new(clock_text(self.seconds(self.n_ticks))).font(FontId::monospace(24.0)));
                 ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
             });
-            if self.phase == Phase::Ready {
+            if let Some(pace) = self.pace {
+                ui.label(RichText::new(pace).color(GOLD));
+            } else if self.phase == Phase::Ready {
                 ui.label(RichText::new("tilt the board to start").color(GOLD));
             }
             if let Some((engine, distance)) = self.ghost {
@@ -169,9 +189,16 @@ impl Hud<'_> {
                     _ => Some((key, effect)),
                 });
                 for (key, effect) in keys {
-                    ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
-                    ui.label(RichText::new(effect).color(QUIET_INK).size(13.0));
-                    ui.add_space(8.0);
+                    key_and_effect(ui, key, effect, QUIET_INK);
+                }
+            });
+            ui.horizontal_wrapped(|ui| {
+                for (number, layer) in (1..).zip(Layer::ALL) {
+                    let ink = if self.layers.has(layer) { GOLD } else { QUIET_INK };
+                    key_and_effect(ui, &format!("{number}"), layer.name(), ink);
+                }
+                for (key, effect) in METHOD_KEYS {
+                    key_and_effect(ui, key, effect, QUIET_INK);
                 }
             });
         });
@@ -206,7 +233,13 @@ impl Hud<'_> {
     }
 }
 
-fn is_small(size_points: [f32; 2]) -> bool {
+fn key_and_effect(ui: &mut Ui, key: &str, effect: &str, ink: Color32) {
+    ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
+    ui.label(RichText::new(effect).color(ink).size(13.0));
+    ui.add_space(8.0);
+}
+
+pub(super) fn is_small(size_points: [f32; 2]) -> bool {
     size_points[0] < SMALL[0] || size_points[1] < SMALL[1]
 }
 

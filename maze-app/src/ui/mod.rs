@@ -2,13 +2,17 @@
 
 mod frames_panel;
 mod hud;
+mod notes_panel;
 
 pub(crate) use frames_panel::FramesPanel;
 pub(crate) use hud::{Hud, Labels};
+pub(crate) use notes_panel::covered_width;
 
+use crate::overlay::Notes;
 use egui::ClippedPrimitive;
 use egui::epaint::{ImageData, Primitive};
-use maze_render::{Gpu, PaintBatch, PaintVertex, Painter};
+use image::RgbaImage;
+use maze_render::{Gpu, GpuError, PaintBatch, PaintVertex, Painter, Renderer, Scene};
 use wgpu::{CommandEncoder, TextureFormat, TextureView};
 
 /// Draws egui over a finished frame. The library's own wgpu renderer asks a texture in two ways and picks one by a
@@ -25,7 +29,7 @@ impl Overlay {
         Self { context, painter: Painter::new(gpu, format) }
     }
 
-    /// Lays out the HUD and encodes a pass that draws it over `view`.
+    /// Lays out what `show` adds and encodes a pass that draws it over `view`.
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
@@ -33,7 +37,7 @@ impl Overlay {
         view: &TextureView,
         size: [u32; 2],
         scale: f32,
-        hud: &Hud,
+        mut show: impl FnMut(&mut egui::Ui),
     ) {
         let [width, height] = size.map(|pixels| to_points(pixels, scale));
         let mut input = egui::RawInput {
@@ -43,7 +47,7 @@ impl Overlay {
         if let Some(viewport) = input.viewports.get_mut(&input.viewport_id) {
             viewport.native_pixels_per_point = Some(scale);
         }
-        let mut output = self.context.run_ui(input, |ui| hud.show(ui));
+        let mut output = self.context.run_ui(input, |ui| show(ui));
         // Only the letters have a texture.
         for delta in output.textures_delta.set.drain().flat_map(|(_, deltas)| deltas) {
             let ImageData::Color(image) = &delta.image;
@@ -60,6 +64,23 @@ impl Overlay {
         let batches: Vec<_> = shapes.into_iter().filter_map(batch).collect();
         self.painter.draw(gpu, encoder, view, size, scale, &batches);
     }
+}
+
+/// A scene as a picture, and over it what is said of the method.
+pub(crate) fn picture(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    size: [u32; 2],
+    scale: f32,
+    scene: &Scene,
+    notes: &Notes,
+) -> Result<RgbaImage, GpuError> {
+    let mut overlay = Overlay::new(gpu, renderer.target_format());
+    maze_render::capture_over(gpu, renderer, size, scene, |encoder, view| {
+        if *notes != Notes::default() {
+            overlay.draw(gpu, encoder, view, size, scale, |ui| notes.show(ui, hud::MARGIN));
+        }
+    })
 }
 
 fn batch(shape: ClippedPrimitive) -> Option<PaintBatch> {

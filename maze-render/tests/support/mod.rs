@@ -123,6 +123,7 @@ impl Board {
             goal_glow: 0.5,
             lines: vec![],
             patches: vec![],
+            shows_maze: true,
         }
     }
 }
