@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::levels::{self, Level, N_LEVELS};
 use crate::maze_file::{self, Loaded};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
-use crate::sidecar::Sidecar;
+use crate::sidecar::{Sidecar, parse_up_axis, radius_in_range};
 use clap::Args;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
@@ -246,21 +246,6 @@ pub(crate) enum Onwards {
     NextLevel,
 }
 
-/// Below the length of a substep a ball could pass through a wall between two of them; half a corridor fits nowhere.
-const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
-
 fn parse_radius(text: &str) -> Result<Radius, String> {
     radius_in_range(text.parse().unwrap_or(f64::NAN))
-}
-
-pub(crate) fn radius_in_range(radius: f64) -> Result<Radius, String> {
-    let usable = Some(radius).filter(|radius| RADII.contains(radius)).and_then(Radius::new);
-    usable.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
-}
-
-pub(crate) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
-    [UpAxis::X, UpAxis::Y, UpAxis::Z]
-        .into_iter()
-        .find(|axis| axis.name() == text)
-        .ok_or_else(|| "expected x, y or z".to_owned())
 }

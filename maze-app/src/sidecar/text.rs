@@ -1,14 +1,10 @@
-//! `NAME.toml` beside a maze file: what its author decides instead of the program.
+//! What a sidecar's text says. By itself, so that a fuzz target can include it.
 
-use crate::failure::Failure;
-use crate::files;
-use crate::source::{parse_up_axis, radius_in_range};
 use maze_core::{Radius, UpAxis};
-use maze_render::TextureSet;
 use nalgebra::Vector2;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What a sidecar may say; everything is optional.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
@@ -30,7 +26,7 @@ pub(crate) struct Sidecar {
     #[serde(deserialize_with = "point")]
     pub(crate) goal: Option<Vector2<f64>>,
     /// Directory with wall.bmp, floor.bmp and top.bmp, from the sidecar's own.
-    textures: Option<PathBuf>,
+    pub(crate) textures: Option<PathBuf>,
 }
 
 fn up_axis<'de, D: Deserializer<'de>>(value: D) -> Result<Option<UpAxis>, D::Error> {
@@ -56,24 +52,8 @@ fn point<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vector2<f64>>, D:
 }
 
 impl Sidecar {
-    /// The one beside a maze file; the default where there is none.
-    pub(crate) fn beside(maze: &Path) -> Result<Self, Failure> {
-        let path = maze.with_extension("toml");
-        if path == maze || !path.exists() {
-            return Ok(Self::default());
-        }
-        let text = files::read(&path)?;
-        let text = String::from_utf8(text).map_err(|_| Failure::in_file(&path, "expected text in UTF-8"))?;
-        let mut sidecar = Self::parse(&text)
-            .map_err(|(line, reason)| Failure::in_file(&path, format!("line {line}: {reason}")))?;
-        if let (Some(textures), Some(directory)) = (&mut sidecar.textures, path.parent()) {
-            *textures = directory.join(&*textures);
-        }
-        Ok(sidecar)
-    }
-
     /// What is wrong comes with its line, counted from 1.
-    fn parse(text: &str) -> Result<Self, (usize, String)> {
+    pub(crate) fn parse(text: &str) -> Result<Self, (usize, String)> {
         toml::from_str(text).map_err(|error| {
             let start = error.span().map_or(0, |span| span.start);
             let line = text.bytes().take(start).filter(|byte| *byte == b'\n').count() + 1;
@@ -82,13 +62,19 @@ impl Sidecar {
     }
 }
 
-/// The textures that a flag names, else those of the maze's sidecar, else ours.
-pub(crate) fn textures(flag: Option<&Path>, maze: Option<&Path>) -> Result<TextureSet, Failure> {
-    let from_sidecar = match (flag, maze) {
-        (None, Some(maze)) => Sidecar::beside(maze)?.textures,
-        _ => None,
-    };
-    files::textures(flag.or(from_sidecar.as_deref()))
+/// Below the length of a substep a ball could pass through a wall between two of them; half a corridor fits nowhere.
+const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
+
+pub(crate) fn radius_in_range(radius: f64) -> Result<Radius, String> {
+    let usable = Some(radius).filter(|radius| RADII.contains(radius)).and_then(Radius::new);
+    usable.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
+}
+
+pub(crate) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
+    [UpAxis::X, UpAxis::Y, UpAxis::Z]
+        .into_iter()
+        .find(|axis| axis.name() == text)
+        .ok_or_else(|| "expected x, y or z".to_owned())
 }
 
 #[cfg(test)]
