@@ -201,4 +201,15 @@ mod tests {
             assert_eq!(image.dimensions(), (512, 512));
         }
     }
+
+    #[cfg(unix)]
+    #[test]
+    fn an_output_never_takes_the_place_of_a_pipe_or_a_device() {
+        let scratch = tempfile::tempdir().unwrap();
+        let pipe = scratch.path().join("pipe.maze");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let refused = write_whole(&pipe, b"maze").unwrap_err().to_string();
+        assert!(refused.ends_with("is no ordinary file"), "{refused}");
+        assert!(!fs::metadata(&pipe).unwrap().is_file());
+    }
 }

@@ -481,20 +481,6 @@ fn a_sidecar_decides_flags_win_and_its_faults_are_told_with_the_line() {
     refused(&mut maze_app(&["render", maze, "--out", "unused.png"]), "nowhere");
 }
 
-#[cfg(unix)]
-#[test]
-fn an_output_never_takes_the_place_of_a_pipe_or_a_device() {
-    let scratch = tempfile::tempdir().unwrap();
-    let pipe = scratch.path().join("pipe.maze");
-    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let arguments = ["autopilot", "--size", "3x3", "--seed", "1", "--record"];
-    let output = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(arguments).arg(&pipe).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("is no ordinary file"), "{said}");
-    assert!(!std::fs::metadata(&pipe).unwrap().is_file());
-}
-
 #[test]
 fn a_negative_number_is_a_bad_value_not_an_unknown_flag() {
     for (flag, value) in [("--size", "-3x4"), ("--braid", "-0.1"), ("--seed", "-1"), ("--river", "-1")] {
