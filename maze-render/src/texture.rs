@@ -8,7 +8,7 @@ use image::RgbImage;
 const MAX_SIDE: u32 = 8192;
 
 /// The three surfaces' pictures; each repeats over its surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextureSet {
     /// Upright sides of walls.
     pub wall: RgbImage,

@@ -3,7 +3,10 @@
 use super::App;
 use crate::failure::Failure;
 use crate::files;
+use crate::sidecar;
+use crate::source::Source;
 use image::ImageFormat;
+use maze_render::TextureSet;
 use std::io::Cursor;
 use std::path::Path;
 use std::time::Instant;
@@ -13,10 +16,25 @@ impl App {
         self.notice = Some((notice, Instant::now()));
     }
 
+    /// What a maze's surfaces look like: as its sidecar says, where no flag does.
+    pub(super) fn textures_of(&self, source: &Source) -> Result<TextureSet, Failure> {
+        sidecar::textures(self.textures_flag.as_deref(), source.file())
+    }
+
+    /// The maze has to be set again afterwards.
+    pub(super) fn cover_with(&mut self, textures: TextureSet) {
+        if textures != self.textures {
+            self.textures = textures;
+            if let Some(graphics) = &mut self.graphics {
+                graphics.set_look(graphics.quality(), &self.textures);
+            }
+        }
+    }
+
     pub(super) fn next_quality(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         let quality = graphics.quality().next();
-        graphics.set_quality(quality, &self.textures);
+        graphics.set_look(quality, &self.textures);
         self.notify(format!("quality: {}", quality.name()));
         self.load_into_graphics()
     }

@@ -13,6 +13,9 @@ pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
 const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
+/// Where there is more to read, and the maze behind it is bright.
+pub(super) const DENSE_GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 245);
+
 /// Distance of the panels from the window's edge (points).
 pub(super) const MARGIN: f32 = 14.0;
 
@@ -129,10 +132,7 @@ impl Hud<'_> {
             self.goal_reached(ui.ctx());
         }
         if let Some(notice) = self.notice {
-            area(ui.ctx(), "notice", Align2::CENTER_TOP, vec2(0.0, 6.0 * MARGIN), |ui| {
-                ui.set_max_width(0.7 * screen.width());
-                ui.label(RichText::new(notice).color(GOLD));
-            });
+            show_notice(ui.ctx(), notice);
         }
         if is_small([screen.width(), screen.height()]) {
             return;
@@ -231,6 +231,24 @@ impl Hud<'_> {
             },
         );
     }
+}
+
+/// Not an area of egui's, which is empty in its first frame and fades in: news are there at once, and dense.
+fn show_notice(context: &Context, text: &str) {
+    let screen = context.content_rect();
+    let painter =
+        context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("notice")));
+    let galley = painter.layout(text.to_owned(), FontId::proportional(16.0), GOLD, 0.7 * screen.width());
+    let at = screen.center_top() + vec2(0.0, 6.0 * MARGIN);
+    let place = Align2::CENTER_TOP.anchor_size(at, galley.size());
+    painter.rect(
+        place.expand2(vec2(16.0, 10.0)),
+        8.0,
+        DENSE_GLASS,
+        Stroke::new(1.0, GOLD),
+        egui::StrokeKind::Inside,
+    );
+    painter.galley(place.min, galley, GOLD);
 }
 
 fn key_and_effect(ui: &mut Ui, key: &str, effect: &str, ink: Color32) {
