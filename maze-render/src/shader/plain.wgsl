@@ -39,8 +39,7 @@ fn vertex(in: Vertex) -> Corner {
 
 @fragment
 fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    // Walls are seen at a flat angle: the level that suits their short side would wash out the bricks on the long one.
-    let bias = select(0.0, -1.2, kind == WALL);
+    let bias = select(0.0, wall_bias, kind == WALL);
     return shown(textureSampleBias(surface_texture, surface_sampler, in.uv, bias).rgb * in.shade);
 }
 
