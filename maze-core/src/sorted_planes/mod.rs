@@ -237,9 +237,13 @@ impl RowView<'_> {
 
     /// The planes that touch a closed range along the row, ascending.
     pub(crate) fn within(self, range: [f64; 2]) -> impl Iterator<Item = Face> {
-        let Range { start: from, end: to } = self.along.within(range);
-        let rest = self.group.interval_from(self.row, from)..self.row.last as usize;
-        rest.take_while(move |index| self.group.intervals[*index].start.is_below(to))
+        self.at(self.along.within(range))
+    }
+
+    /// The planes that touch coordinates at these ranks along the row, or hold all of them, ascending.
+    pub(crate) fn at(self, ranks: Range<u32>) -> impl Iterator<Item = Face> {
+        let rest = self.group.interval_from(self.row, ranks.start)..self.row.last as usize;
+        rest.take_while(move |index| self.group.intervals[*index].start.is_below(ranks.end))
             .map(move |index| self.face(index))
     }
 
