@@ -55,3 +55,66 @@ impl App {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Options;
+    use crate::command::play::Setup;
+    use crate::engine_kind::EngineKind;
+    use crate::quality::QualityChoice;
+    use crate::source::MazeArguments;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Cli {
+        #[command(flatten)]
+        maze: MazeArguments,
+    }
+
+    /// Without a window.
+    fn app() -> App {
+        let source = Source::new(&Cli::parse_from(["", "--level", "1"]).maze).unwrap();
+        let maze = source.load().unwrap();
+        let setup = Setup {
+            source,
+            textures: files::textures(None).unwrap(),
+            textures_flag: None,
+            engine: EngineKind::Continuous,
+            max_tilt_rad: 0.3,
+            state_log: None,
+            record: None,
+            exit_after: None,
+            quality: QualityChoice::Auto,
+        };
+        App::new(setup, Options::default(), maze).unwrap()
+    }
+
+    #[test]
+    fn a_dropped_file_brings_its_sidecar_s_textures_and_the_next_level_has_ours() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = |name: &str| directory.path().join(name);
+        let write = |name: &str, bytes: &[u8]| std::fs::write(file(name), bytes).unwrap();
+        let floor = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/textures/floor.bmp");
+        for name in ["wall.bmp", "floor.bmp", "top.bmp"] {
+            std::fs::copy(floor, file(name)).unwrap();
+        }
+        write("maze.txt", b"#####\n#S G#\n#####\n");
+        write("maze.toml", b"textures = '.'\n");
+        let mut app = app();
+        let ours = app.textures.clone();
+
+        app.drop_file(file("maze.txt")).unwrap();
+        assert_eq!(app.notice, None);
+        assert!(app.textures.wall == ours.floor && app.textures.floor == ours.floor, "its own");
+
+        write("maze.toml", b"textures = 'nowhere'\n");
+        app.drop_file(file("maze.txt")).unwrap();
+        assert!(app.notice.as_ref().is_some_and(|(text, _)| text.contains("nowhere")), "{:?}", app.notice);
+        assert!(app.textures.wall == ours.floor, "what is shown stays");
+
+        let changed = app.source.change_level(true).unwrap();
+        app.load(changed).unwrap();
+        assert!(changed && app.textures == ours, "a level has none of its own");
+    }
+}
