@@ -77,7 +77,7 @@ impl Renderer {
         textures: &TextureSet,
         quality: Quality,
     ) -> Self {
-        let detail = quality.detail(&gpu.adapter_info);
+        let detail = quality.detail(gpu.adapter_info.device_type);
         let device = &gpu.device;
         let features = gpu.adapter.get_texture_format_features(target_format).flags;
         let n_samples = if features.sample_count_supported(detail.n_samples) { detail.n_samples } else { 1 };
