@@ -3,7 +3,7 @@
 use super::BenchError;
 use crate::board::Board;
 use maze_core::impact::Path;
-use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, SortedPlanes};
+use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, Radius, SortedPlanes};
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
 use rand_chacha::ChaCha8Rng;
@@ -199,7 +199,8 @@ impl Case {
     /// # Errors
     /// None that this maze and this ball give; the engine's own.
     pub fn coherent(&self, name: &'static str, n: usize) -> Result<QuerySet, BenchError> {
-        let spec = BallSpec::default();
+        let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
+        let spec = BallSpec { radius, ..BallSpec::default() };
         let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
         let ball = Ball::at(self.centre(middle, middle));
         let mut engine =
@@ -247,6 +248,7 @@ fn below(rng: &mut ChaCha8Rng, bound: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use maze_core::impact;
 
     #[test]
     fn the_faces_are_those_of_the_board_and_know_their_corners() {
@@ -274,8 +276,17 @@ mod tests {
             assert!(board.penetration(path.position, RADIUS) <= 1.0e-12);
             assert!((path.velocity.norm() * until_s - 10.0).abs() < 1.0e-12);
         }
-        let rolled = case.coherent("", 1000).unwrap().queries;
+    }
+
+    #[test]
+    fn a_rolling_ball_gets_around_and_meets_walls_now_and_then() {
+        let case = Case::new(8, 1).unwrap();
+        let rolled = case.coherent("", 3000).unwrap().queries;
         let from = rolled[0].path.position;
-        assert!(rolled.iter().any(|query| 0.1 < (query.path.position - from).norm()));
+        assert!(rolled.iter().any(|query| 1.0 < (query.path.position - from).norm()));
+        let touches =
+            |query: &&Query| impact::first(case.planes(), &query.path, RADIUS, query.until_s, None).is_some();
+        let n_touches = rolled.iter().filter(touches).count();
+        assert!((30..1500).contains(&n_touches), "{n_touches}");
     }
 }
