@@ -11,7 +11,7 @@ pub(crate) struct BenchArguments {
     /// Under a minute: fewer rounds, and no maze of 10 million planes
     #[arg(long)]
     quick: bool,
-    /// Writes bench.csv, with every round, and bench.svg there
+    /// Writes bench.csv (every round), agreement.csv and bench.svg there
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -40,6 +40,8 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<bool, BadInput> {
     bar.finish_and_clear();
     if let Some(out) = &arguments.out {
         files::write_whole(&out.join("bench.csv"), figures.csv().as_bytes())?;
+        files::write_whole(&out.join("agreement.csv"), figures.agreement_csv().as_bytes())?;
+        files::write_whole(&out.join("bench.svg"), figures.chart().as_bytes())?;
     }
     files::print(&figures.table())?;
     Ok(figures.held())

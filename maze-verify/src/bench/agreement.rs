@@ -24,14 +24,16 @@ pub enum Agreement {
 
 /// How a contender's answers compare with those of the sorted planes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Disagreement {
+pub struct Comparison {
     /// Whose answers.
     pub contender: &'static str,
+    /// What is asked of them.
+    pub agreement: Agreement,
     /// To which queries.
     pub queries: &'static str,
     /// In a maze of so many planes.
     pub n_planes: usize,
-    /// Compared.
+    /// Compared; 0 for a contender that answers another question.
     pub n_asked: usize,
     /// Not the same to the bit.
     pub n_different: usize,
@@ -50,18 +52,19 @@ pub fn answers(search: &mut dyn Search, set: &QuerySet, n: usize) -> Vec<Option<
     set.queries.iter().take(n).map(|query| search.first_touch(query)).collect()
 }
 
-/// Compares answers; `None` for a contender that answers another question.
+/// Compares answers.
 pub fn compare(
     contender: &'static str,
     agreement: Agreement,
     n_planes: usize,
     set: &QuerySet,
     [truth, given]: [&[Option<f64>]; 2],
-) -> Option<Disagreement> {
+) -> Comparison {
     let queries = set.name;
     let n_asked = given.len();
-    let mut found = Disagreement {
+    let mut found = Comparison {
         contender,
+        agreement,
         queries,
         n_planes,
         n_asked,
@@ -88,12 +91,18 @@ pub fn compare(
             }
         }
     }
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let part = (found.n_apart + found.n_missed) as f64 / (n_asked.max(1)) as f64;
     found.holds = match agreement {
         Agreement::Exact => found.n_different == 0,
-        Agreement::Mostly { part: most, .. } => part <= most,
-        Agreement::OtherQuestion(_) => return None,
+        Agreement::Mostly { part, .. } => found.part_off() <= part,
+        Agreement::OtherQuestion(_) => true,
     };
-    Some(found)
+    found
+}
+
+impl Comparison {
+    /// Part of the answers that are off by more than [`APART`] or missed.
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    pub fn part_off(&self) -> f64 {
+        (self.n_apart + self.n_missed) as f64 / self.n_asked.max(1) as f64
+    }
 }

@@ -1,18 +1,24 @@
 //! A run of the benchmark: every size, every question, every contender.
 
-use super::agreement::{Agreement, Disagreement, answers, compare};
+use super::agreement::{Agreement, Comparison, answers, compare};
 use super::case::{Case, QuerySet, STEPS};
 use super::figures::{Figures, Group};
 use super::machine::Machine;
-use super::paired::{Runner, time};
+use super::paired::{Runner, Series, time};
 use super::search::{Contender, Search};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Names of the random queries, one a length of [`STEPS`].
 const RANDOM: [&str; STEPS.len()] = ["random 0.01", "random 0.1", "random 1", "random 10"];
 
 /// The name of the queries of a rolling ball.
 const COHERENT: &str = "rolling ball";
+
+/// The name of the time that it takes to make a structure.
+const BUILD: &str = "build, for each plane";
+
+/// Mazes of up to so many planes are built again each round; larger ones take long enough to be timed once.
+const BUILT_AGAIN: usize = 20_000;
 
 /// How much is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +71,7 @@ impl BenchError {
 
 /// Measures all; `on_step` hears what comes next and how many steps there are.
 ///
-/// Contenders that do not agree are not timed at that size; [`Figures::disagreements`] names them.
+/// Contenders whose answers are wrong are timed all the same; [`Figures::held`] tells, and the table names them.
 ///
 /// # Errors
 /// A maze, a structure or an engine that cannot be made.
@@ -74,19 +80,17 @@ pub fn measure(
     contenders: &[Contender],
     on_step: &dyn Fn(&str, usize),
 ) -> Result<Figures, BenchError> {
-    let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), disagreements: Vec::new() };
+    let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), comparisons: Vec::new() };
     let n_steps = plan.sizes.len() * (1 + RANDOM.len() + 1);
     for [tile, n_tiles] in &plan.sizes {
         let case = Case::new(*tile, *n_tiles)?;
         let n_planes = case.planes().len();
         on_step(&format!("building, {n_planes} planes"), n_steps);
-        let mut built = Vec::new();
-        for contender in contenders.iter().filter(|contender| n_planes <= contender.max_planes) {
-            built.push((contender, (contender.build)(&case)?));
-        }
+        let (mut built, group_of_builds) = build_all(plan, &case, contenders)?;
+        figures.groups.push(group_of_builds);
         for set in query_sets(&case, plan)? {
             on_step(&format!("{}, {n_planes} planes", set.name), n_steps);
-            check(&mut figures.disagreements, plan, n_planes, &mut built, &set);
+            check(&mut figures.comparisons, plan, n_planes, &mut built, &set);
             figures.groups.push(group(plan, n_planes, &mut built, &set));
         }
     }
@@ -103,9 +107,33 @@ fn query_sets(case: &Case, plan: &Plan) -> Result<Vec<QuerySet>, BenchError> {
 
 type Built<'a> = (&'a Contender, Box<dyn Search>);
 
+/// Makes every contender's structure, the small ones several times in turn.
+fn build_all<'a>(
+    plan: &Plan,
+    case: &Case,
+    contenders: &'a [Contender],
+) -> Result<(Vec<Built<'a>>, Group), BenchError> {
+    let n_planes = case.planes().len();
+    let taking_part = || contenders.iter().filter(|contender| n_planes <= contender.max_planes);
+    let mut series: Vec<Series> =
+        taking_part().map(|contender| Series { name: contender.name, ns: Vec::new() }).collect();
+    let mut built = Vec::new();
+    let n_rounds = if n_planes <= BUILT_AGAIN { plan.n_rounds } else { 1 };
+    for _ in 0..n_rounds {
+        built.clear();
+        for (contender, series) in taking_part().zip(&mut series) {
+            let start = Instant::now();
+            built.push((contender, (contender.build)(case)?));
+            #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+            series.ns.push(start.elapsed().as_secs_f64() * 1.0e9 / n_planes.max(1) as f64);
+        }
+    }
+    Ok((built, Group { question: BUILD, n_planes, hit_part: None, series }))
+}
+
 /// All answer the same queries before any is timed.
 fn check(
-    disagreements: &mut Vec<Disagreement>,
+    comparisons: &mut Vec<Comparison>,
     plan: &Plan,
     n_planes: usize,
     built: &mut [Built],
@@ -114,12 +142,11 @@ fn check(
     let Some(((_, reference), others)) = built.split_first_mut() else { return };
     let truth = answers(reference.as_mut(), set, plan.n_checked);
     for (contender, search) in others {
-        if matches!(contender.agreement, Agreement::OtherQuestion(_)) {
-            continue;
-        }
-        let given = answers(search.as_mut(), set, plan.n_checked);
-        let found = compare(contender.name, contender.agreement, n_planes, set, [&truth, &given]);
-        disagreements.extend(found.filter(|found| 0 < found.n_different));
+        let given = match contender.agreement {
+            Agreement::OtherQuestion(_) => Vec::new(),
+            _ => answers(search.as_mut(), set, plan.n_checked),
+        };
+        comparisons.push(compare(contender.name, contender.agreement, n_planes, set, [&truth, &given]));
     }
 }
 

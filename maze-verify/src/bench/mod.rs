@@ -8,6 +8,7 @@
 
 pub mod agreement;
 pub mod case;
+mod chart;
 mod figures;
 pub mod machine;
 mod measure;
@@ -15,7 +16,7 @@ pub mod paired;
 pub mod search;
 mod table;
 
-pub use agreement::{Agreement, Disagreement};
+pub use agreement::{Agreement, Comparison};
 pub use case::{Case, Query, QuerySet};
 pub use figures::{Figures, Group, REFERENCE};
 pub use machine::Machine;

@@ -22,13 +22,14 @@ impl<F: Fn(&SortedPlanes, &Path, f64, f64, Option<Vector2<f64>>) -> Option<Impac
 
 /// The search that the game uses.
 pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: Arc::clone(case.planes()), find: impact::first }))
+    let planes = Arc::new(SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?);
+    Ok(Box::new(Planes { planes, find: impact::first }))
 }
 
 /// The same by bisection alone.
 pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let planes = Arc::new(SortedPlanes::clone(case.planes()).without_directories());
-    Ok(Box::new(Planes { planes, find: impact::first }))
+    let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_directories();
+    Ok(Box::new(Planes { planes: Arc::new(planes), find: impact::first }))
 }
 
 /// Every plane of every group.
