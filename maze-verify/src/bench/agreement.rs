@@ -1,7 +1,7 @@
 //! Whether contenders give the same answers, and by how much those differ that do not.
 
 use super::case::QuerySet;
-use super::search::Search;
+use super::search::{Contender, Search};
 
 /// Answers that differ by more than this (units along the way) count as different: what the game would show.
 pub const APART: f64 = 1.0e-3;
@@ -47,13 +47,30 @@ pub struct Comparison {
     pub holds: bool,
 }
 
-/// What the sorted planes answer: the truth that the others are held to.
-pub fn answers(search: &mut dyn Search, set: &QuerySet, n: usize) -> Vec<Option<f64>> {
-    set.queries.iter().take(n).map(|query| search.first_touch(query)).collect()
+/// Contenders and what they have built.
+pub type Built<'a> = (&'a Contender, Box<dyn Search>);
+
+/// All answer the first `n` queries: how the others' answers compare with the first one's, and which part of those are touches.
+pub fn check(built: &mut [Built], n_planes: usize, set: &QuerySet, n: usize) -> (Vec<Comparison>, f64) {
+    let Some(((_, reference), others)) = built.split_first_mut() else { return (Vec::new(), 0.0) };
+    let answers = |search: &mut dyn Search| -> Vec<Option<f64>> {
+        set.queries.iter().take(n).map(|query| search.first_touch(query)).collect()
+    };
+    let truth = answers(reference.as_mut());
+    let comparisons = others.iter_mut().map(|(contender, search)| {
+        let given = match contender.agreement {
+            Agreement::OtherQuestion(_) => Vec::new(),
+            _ => answers(search.as_mut()),
+        };
+        compare(contender.name, contender.agreement, n_planes, set, [&truth, &given])
+    });
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    let hit_part = truth.iter().flatten().count() as f64 / truth.len().max(1) as f64;
+    (comparisons.collect(), hit_part)
 }
 
 /// Compares answers.
-pub fn compare(
+fn compare(
     contender: &'static str,
     agreement: Agreement,
     n_planes: usize,

@@ -1,11 +1,11 @@
 //! A run of the benchmark: every size, every question, every contender.
 
-use super::agreement::{Agreement, Comparison, answers, compare};
+use super::agreement::{Built, check};
 use super::case::{Case, QuerySet, STEPS};
 use super::figures::{Figures, Group};
 use super::machine::Machine;
 use super::paired::{Runner, Series, time};
-use super::search::{Contender, Search};
+use super::search::{Contender, in_turn};
 use std::time::{Duration, Instant};
 
 /// Names of the random queries, one a length of [`STEPS`].
@@ -15,7 +15,7 @@ const RANDOM: [&str; STEPS.len()] = ["random 0.01", "random 0.1", "random 1", "r
 const COHERENT: &str = "rolling ball";
 
 /// The name of the time that it takes to make a structure.
-const BUILD: &str = "build, for each plane";
+const BUILD: &str = "build (a plane)";
 
 /// Mazes of up to so many planes are built again each round; larger ones take long enough to be timed once.
 const BUILT_AGAIN: usize = 20_000;
@@ -55,6 +55,28 @@ impl Plan {
     }
 }
 
+impl Plan {
+    /// Only mazes of at most about so many planes.
+    #[must_use]
+    pub fn up_to(mut self, n_planes: usize) -> Self {
+        // 1.42 planes a cell, of tiles as large as these.
+        self.sizes.retain(|[tile, n_tiles]| 142 * (tile * n_tiles).pow(2) / 100 <= n_planes);
+        self
+    }
+
+    /// Every kind of queries in a maze.
+    ///
+    /// # Errors
+    /// As [`Case::coherent`].
+    pub fn query_sets(&self, case: &Case) -> Result<Vec<QuerySet>, BenchError> {
+        let random = RANDOM.into_iter().zip(STEPS);
+        let mut sets: Vec<QuerySet> =
+            random.map(|(name, step)| case.random(name, step, self.n_queries)).collect();
+        sets.push(case.coherent(COHERENT, self.n_queries)?);
+        Ok(sets)
+    }
+}
+
 /// Why there are no figures.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BenchError {
@@ -88,24 +110,16 @@ pub fn measure(
         on_step(&format!("building, {n_planes} planes"), n_steps);
         let (mut built, group_of_builds) = build_all(plan, &case, contenders)?;
         figures.groups.push(group_of_builds);
-        for set in query_sets(&case, plan)? {
+        for set in plan.query_sets(&case)? {
             on_step(&format!("{}, {n_planes} planes", set.name), n_steps);
-            check(&mut figures.comparisons, plan, n_planes, &mut built, &set);
-            figures.groups.push(group(plan, n_planes, &mut built, &set));
+            let (comparisons, hit_part) = check(&mut built, n_planes, &set, plan.n_checked);
+            figures.comparisons.extend(comparisons);
+            let series = time_all(plan, &mut built, &set);
+            figures.groups.push(Group { question: set.name, n_planes, hit_part: Some(hit_part), series });
         }
     }
     Ok(figures)
 }
-
-fn query_sets(case: &Case, plan: &Plan) -> Result<Vec<QuerySet>, BenchError> {
-    let random = RANDOM.into_iter().zip(STEPS);
-    let mut sets: Vec<QuerySet> =
-        random.map(|(name, step)| case.random(name, step, plan.n_queries)).collect();
-    sets.push(case.coherent(COHERENT, plan.n_queries)?);
-    Ok(sets)
-}
-
-type Built<'a> = (&'a Contender, Box<dyn Search>);
 
 /// Makes every contender's structure, the small ones several times in turn.
 fn build_all<'a>(
@@ -131,29 +145,8 @@ fn build_all<'a>(
     Ok((built, Group { question: BUILD, n_planes, hit_part: None, series }))
 }
 
-/// All answer the same queries before any is timed.
-fn check(
-    comparisons: &mut Vec<Comparison>,
-    plan: &Plan,
-    n_planes: usize,
-    built: &mut [Built],
-    set: &QuerySet,
-) {
-    let Some(((_, reference), others)) = built.split_first_mut() else { return };
-    let truth = answers(reference.as_mut(), set, plan.n_checked);
-    for (contender, search) in others {
-        let given = match contender.agreement {
-            Agreement::OtherQuestion(_) => Vec::new(),
-            _ => answers(search.as_mut(), set, plan.n_checked),
-        };
-        comparisons.push(compare(contender.name, contender.agreement, n_planes, set, [&truth, &given]));
-    }
-}
-
-fn group(plan: &Plan, n_planes: usize, built: &mut [Built], set: &QuerySet) -> Group {
-    let hits = built.first_mut().map_or(0, |(_, reference)| {
-        answers(reference.as_mut(), set, plan.n_checked).into_iter().flatten().count()
-    });
+/// All in turn on the same queries.
+fn time_all(plan: &Plan, built: &mut [Built], set: &QuerySet) -> Vec<Series> {
     let mut runners: Vec<Runner> = built
         .iter_mut()
         .map(|(contender, search)| Runner {
@@ -161,27 +154,5 @@ fn group(plan: &Plan, n_planes: usize, built: &mut [Built], set: &QuerySet) -> G
             run: in_turn(search.as_mut(), &set.queries),
         })
         .collect();
-    let series = time(&mut runners, plan.n_rounds, plan.batch);
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let hit_part = hits as f64 / plan.n_checked.min(set.queries.len()).max(1) as f64;
-    Group { question: set.name, n_planes, hit_part: Some(hit_part), series }
-}
-
-/// Asks query after query, from the first again after the last.
-fn in_turn<'a>(
-    search: &'a mut dyn Search,
-    queries: &'a [super::case::Query],
-) -> Box<dyn FnMut(usize) -> f64 + 'a> {
-    let mut next = 0;
-    Box::new(move |n| {
-        let mut sum = 0.0;
-        let mut left = n;
-        while 0 < left {
-            let end = queries.len().min(next + left);
-            sum += search.answer_all(&queries[next..end]);
-            left -= end - next;
-            next = if end == queries.len() { 0 } else { end };
-        }
-        sum
-    })
+    time(&mut runners, plan.n_rounds, plan.batch)
 }
