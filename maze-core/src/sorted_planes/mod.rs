@@ -152,16 +152,27 @@ impl SortedPlanes {
     }
 
     /// The rows of one group with offsets in a closed range, in the direction of motion of a ball that they stop.
-    pub(crate) fn rows_within(
-        &self,
-        facing: Facing,
-        [low, high]: [f64; 2],
-    ) -> impl Iterator<Item = RowView<'_>> {
-        let (group, across) = (self.group(facing), &self.axes[facing.axis()]);
-        let (begin, end) = (group.row_from(across.n_below(low)), group.row_from(across.n_not_above(high)));
+    pub(crate) fn rows_within(&self, facing: Facing, range: [f64; 2]) -> impl Iterator<Item = RowView<'_>> {
+        self.rows(facing, self.rows_at(facing, &self.ranks(facing.axis(), range)))
+    }
+
+    /// Ranks of the coordinates of an axis within a closed range.
+    pub(crate) fn ranks(&self, axis: usize, range: [f64; 2]) -> Range<u32> {
+        self.axes[axis].within(range)
+    }
+
+    /// Indices of the rows of one group at ranks of offsets.
+    pub(crate) fn rows_at(&self, facing: Facing, ranks: &Range<u32>) -> Range<usize> {
+        let group = self.group(facing);
+        group.row_from(ranks.start)..group.row_from(ranks.end)
+    }
+
+    /// Rows of one group by index, in the direction of motion of a ball that they stop.
+    pub(crate) fn rows(&self, facing: Facing, rows: Range<usize>) -> impl Iterator<Item = RowView<'_>> {
+        let group = self.group(facing);
         let ascends = facing.sign() < 0.0;
-        (begin..end).map(move |index| {
-            let index = if ascends { index } else { begin + (end - 1 - index) };
+        rows.clone().map(move |index| {
+            let index = if ascends { index } else { rows.start + (rows.end - 1 - index) };
             self.view(facing, &group.rows[index])
         })
     }
@@ -226,9 +237,13 @@ impl RowView<'_> {
 
     /// The planes that touch a closed range along the row, ascending.
     pub(crate) fn within(self, range: [f64; 2]) -> impl Iterator<Item = Face> {
-        let Range { start: from, end: to } = self.along.within(range);
-        let rest = self.group.interval_from(self.row, from)..self.row.last as usize;
-        rest.take_while(move |index| self.group.intervals[*index].start.is_below(to))
+        self.at(self.along.within(range))
+    }
+
+    /// The planes that touch coordinates at these ranks along the row, or hold all of them, ascending.
+    pub(crate) fn at(self, ranks: Range<u32>) -> impl Iterator<Item = Face> {
+        let rest = self.group.interval_from(self.row, ranks.start)..self.row.last as usize;
+        rest.take_while(move |index| self.group.intervals[*index].start.is_below(ranks.end))
             .map(move |index| self.face(index))
     }
 
