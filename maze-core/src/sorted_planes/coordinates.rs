@@ -24,6 +24,46 @@ pub(super) struct Coordinates {
     is_single: bool,
 }
 
+/// Collects the numbers of one axis and drops most of the repeated ones at once, before anything is sorted.
+#[derive(Default)]
+pub(super) struct Collector {
+    values: Vec<f64>,
+    /// The number last seen of each hash; empty while there are few numbers.
+    seen: Vec<u64>,
+}
+
+/// So many numbers are as well sorted with their repetitions.
+const FEW: usize = 1024;
+
+/// Hashes of as many bits: twice as many numbers as a board of 10⁷ planes has lines.
+const HASH_BITS: u32 = 14;
+
+impl Collector {
+    pub(super) fn push(&mut self, value: f64) {
+        if self.seen.is_empty() {
+            self.values.push(value);
+            if FEW <= self.values.len() {
+                // No finite number has these bits.
+                self.seen = vec![u64::MAX; 1 << HASH_BITS];
+            }
+            return;
+        }
+        let bits = value.to_bits();
+        // Fibonacci hashing (Knuth, "The Art of Computer Programming" 3, 6.4).
+        let hash = bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - HASH_BITS);
+        #[allow(clippy::cast_possible_truncation, reason = "HASH_BITS bits")]
+        let seen = &mut self.seen[hash as usize];
+        if *seen != bits {
+            *seen = bits;
+            self.values.push(value);
+        }
+    }
+
+    pub(super) fn coordinates(self) -> Coordinates {
+        Coordinates::new(self.values)
+    }
+}
+
 /// Most buckets for each value, spent where they leave no two values in one bucket.
 const MOST_BUCKETS: usize = 4;
 
@@ -32,7 +72,7 @@ const ROUNDS_TO_WHOLE: f64 = 4_503_599_627_370_496.0;
 
 impl Coordinates {
     /// Sorts finite numbers and drops the repeated ones.
-    pub(super) fn new(mut values: Vec<f64>) -> Self {
+    fn new(mut values: Vec<f64>) -> Self {
         values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         let n_values = values.len();
@@ -173,6 +213,15 @@ mod tests {
                 prop_assert_eq!(coordinates.rank_of(*known), rank);
             }
         }
+    }
+
+    #[test]
+    fn collected_numbers_are_the_distinct_ones_however_often_they_repeat() {
+        let mut collector = Collector::default();
+        (0..100_000_u32).for_each(|n| collector.push(f64::from(n * 7919 % 20_011)));
+        let coordinates = collector.coordinates();
+        assert_eq!(coordinates.values[..20_011], (0..20_011).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(coordinates.len(), 20_011);
     }
 
     #[test]

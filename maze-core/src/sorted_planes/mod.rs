@@ -6,7 +6,7 @@ mod group;
 mod nearby;
 
 use crate::plane::{Facing, Plane, PlaneError};
-use coordinates::Coordinates;
+use coordinates::{Collector, Coordinates};
 use group::{Group, Interval, Row};
 use nalgebra::Vector2;
 pub use nearby::Clearance;
@@ -50,15 +50,20 @@ impl SortedPlanes {
     /// A plane with a coordinate that is not finite, or with no extent; more than 2²⁸ planes of one facing.
     pub fn new(planes: impl IntoIterator<Item = Plane>) -> Result<Self, PlaneError> {
         let mut by_facing: [Vec<[f64; 3]>; 4] = Default::default();
+        let mut collectors = <[Collector; 2]>::default();
         for (index, plane) in planes.into_iter().enumerate() {
             let Plane { facing, offset, start, end } = plane.checked(index)?;
             // Adding 0 takes the sign of -0: coordinates are compared as numbers.
-            by_facing[facing as usize].push([offset, start, end].map(|value| value + 0.0));
+            let numbers @ [offset, start, end] = [offset, start, end].map(|value| value + 0.0);
+            by_facing[facing as usize].push(numbers);
+            collectors[facing.axis()].push(offset);
+            collectors[1 - facing.axis()].push(start);
+            collectors[1 - facing.axis()].push(end);
         }
         if by_facing.iter().any(|planes| MAX_PLANES < planes.len()) {
             return Err(PlaneError::TooMany);
         }
-        let axes = [0, 1].map(|axis| Coordinates::new(values_along(axis, &by_facing)));
+        let axes = collectors.map(Collector::coordinates);
         let mut groups = <[Group; 4]>::default();
         for (facing, planes) in Facing::ALL.into_iter().zip(by_facing) {
             let (across, along) = (&axes[facing.axis()], &axes[1 - facing.axis()]);
@@ -199,14 +204,6 @@ impl PartialEq for SortedPlanes {
     fn eq(&self, other: &Self) -> bool {
         Facing::ALL.into_iter().all(|facing| self.faces(facing).eq(other.faces(facing)))
     }
-}
-
-/// All numbers along one axis that planes use.
-fn values_along(axis: usize, by_facing: &[Vec<[f64; 3]>; 4]) -> Vec<f64> {
-    let list = |facing: Facing| &by_facing[facing as usize];
-    let offsets = Facing::across(axis).into_iter().flat_map(list).map(|[offset, ..]| *offset);
-    let ends = Facing::across(1 - axis).into_iter().flat_map(list).flat_map(|[_, start, end]| [*start, *end]);
-    offsets.chain(ends).collect()
 }
 
 /// A row, to look for planes in.
