@@ -64,6 +64,9 @@ impl Figures {
             let cells: Vec<String> = queries.iter().map(|queries| of(queries)).collect();
             let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
         }
+        for (name, reason) in self.reasons() {
+            let _ = writeln!(text, "  {name}: {reason}");
+        }
         for found in self.comparisons.iter().filter(|found| !found.holds) {
             let _ = writeln!(
                 text,
@@ -78,6 +81,22 @@ impl Figures {
                 found.n_missed,
             );
         }
+    }
+}
+
+impl Figures {
+    /// Why answers may differ: the contenders with each reason.
+    fn reasons(&self) -> Vec<(String, &'static str)> {
+        let reason = |found: &Comparison| match found.agreement {
+            Agreement::Exact => None,
+            Agreement::Mostly { reason, .. } | Agreement::OtherQuestion(reason) => Some(reason),
+        };
+        let names = |reason_of_all: &'static str| {
+            let found = self.comparisons.iter().filter(|found| reason(found) == Some(reason_of_all));
+            distinct(found.map(|found| found.contender)).join(", ")
+        };
+        let reasons = distinct(self.comparisons.iter().filter_map(reason));
+        reasons.into_iter().map(|reason| (names(reason), reason)).collect()
     }
 }
 
