@@ -1,12 +1,13 @@
 //! `maze-verify`: the cross-check on the command line.
 
+mod benchmark;
 mod files;
 
 use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
 use indicatif::{ProgressBar, ProgressStyle};
 use maze_verify::results::{Partition, Results};
 use maze_verify::scene::{self, Scene};
-use maze_verify::{Contender, build, relaxation, report, run};
+use maze_verify::{Contender, bench, build, relaxation, report, run};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -20,12 +21,16 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Lists the scenes and the engines
+    /// Lists the scenes, the engines and the contenders of the benchmark
     List,
     /// Runs scenes and says whether every bar holds (exit status 1 when not)
     ///
     /// Example: maze-verify run --scene 'corner-*' --out target/report
     Run(RunArguments),
+    /// Times our searches beside what else a user would pick (exit status 1 when answers differ that must not)
+    ///
+    /// Example: maze-verify bench --quick --out target/bench
+    Bench(benchmark::BenchArguments),
     /// Joins the parts of a run that was split with --partition
     ///
     /// Example: maze-verify merge part1 part2 --out whole
@@ -73,6 +78,7 @@ fn main() -> ExitCode {
     let done = match CommandLine::parse().command {
         Command::List => list(),
         Command::Run(arguments) => run_scenes(&arguments),
+        Command::Bench(arguments) => benchmark::bench(&arguments),
         Command::Merge { parts, output } => merge(&parts, &output),
     };
     match done {
@@ -93,6 +99,10 @@ fn list() -> Result<bool, BadInput> {
     text += "\nScenes\n";
     for scene in scene::catalogue() {
         text += &format!("  {:<22} {}\n", scene.name, scene.about);
+    }
+    text += "\nContenders of the benchmark\n";
+    for contender in bench::search::CONTENDERS {
+        text += &format!("  {:<22} {}\n", contender.name, contender.about);
     }
     files::print(&text).map(|()| true)
 }

@@ -2,8 +2,8 @@
 
 mod drawing;
 mod html;
-mod number;
-mod plot;
+pub(crate) mod number;
+pub(crate) mod plot;
 mod relaxed;
 mod summary;
 mod table;
