@@ -3,73 +3,40 @@
 //! `coherent` rolls one ball tick after tick; `random` ticks balls all over the maze in turn, so that each finds the caches
 //! cold; `speed` bounces one without loss at 1 to 1000 units/s. The number of hits a tick is part of the name.
 #![allow(clippy::disallowed_methods, reason = "a benchmark may choose its inputs in any way")]
-#![allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+
+#[path = "tiled/mod.rs"]
+mod tiled;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Layout, Plane, Published, SortedPlanes};
-use maze_core::{extrude, layout};
+use maze_core::{Ball, BallSpec, Continuous, Engine, Published, SortedPlanes};
 use nalgebra::Vector2;
 use std::hint::black_box;
 use std::sync::Arc;
+use tiled::{TILE, Tiled};
 
 const TICK_S: f64 = 0.03;
-
-/// Cells along a side of the maze that is laid side by side with itself, so that a ball meets the same walls in all sizes.
-const TILE: usize = 24;
 
 /// Tiles along a side, for about 10³, 10⁴, 10⁵ and 10⁶ planes.
 const N_TILES: [usize; 4] = [1, 3, 10, 34];
 
-const PITCH: f64 = extrude::CORRIDOR + extrude::WALL_THICKNESS;
-
-/// A square maze and where its cells are.
+/// A maze, its planes, and the same without directories.
 struct Grid {
+    maze: Tiled,
     planes: Arc<SortedPlanes>,
     plain: Arc<SortedPlanes>,
-    side: usize,
 }
 
 impl Grid {
-    /// The ground plan of a layout, without the way through a mesh that a million planes would take long for.
     fn new(n_tiles: usize) -> Result<Self, Box<dyn std::error::Error>> {
-        let layout = layout::recursive_backtracker(TILE, TILE, 2020)?;
-        let planes = SortedPlanes::new(faces(&layout, n_tiles))?;
+        let maze = Tiled::new(n_tiles)?;
+        let planes = SortedPlanes::new(maze.faces.iter().copied())?;
         let plain = Arc::new(planes.clone().without_directories());
-        Ok(Self { planes: Arc::new(planes), plain, side: n_tiles * TILE })
+        Ok(Self { maze, planes: Arc::new(planes), plain })
     }
 
     fn centre(&self, cell: usize) -> Vector2<f64> {
-        let at = |index: usize| index as f64 * PITCH + extrude::WALL_THICKNESS + extrude::CORRIDOR / 2.0;
-        Vector2::new(at(cell % self.side), at(cell / self.side % self.side))
+        self.maze.centre(cell)
     }
-}
-
-fn line(k: usize) -> f64 {
-    k.div_ceil(2) as f64 * extrude::WALL_THICKNESS + (k / 2) as f64 * extrude::CORRIDOR
-}
-
-fn faces(tile: &Layout, n_tiles: usize) -> Vec<Plane> {
-    let n = 2 * TILE * n_tiles + 1;
-    let is_wall = |i: usize, j: usize| match (i % 2, j % 2) {
-        (1, 1) => false,
-        (0, 1) => i == 0 || !tile.is_open_east((i / 2 - 1) % TILE, j / 2 % TILE),
-        (1, 0) => j == 0 || !tile.is_open_north(i / 2 % TILE, (j / 2 - 1) % TILE),
-        _ => true,
-    };
-    let mut faces = Vec::new();
-    for across in 0..n {
-        for step in 1..n {
-            let [offset, start, end] = [step, across, across + 1].map(line);
-            let mut push = |before, after, [minus, plus]: [Facing; 2]| match (before, after) {
-                (true, false) => faces.push(Plane { facing: plus, offset, start, end }),
-                (false, true) => faces.push(Plane { facing: minus, offset, start, end }),
-                _ => {}
-            };
-            push(is_wall(step - 1, across), is_wall(step, across), [Facing::MinusX, Facing::PlusX]);
-            push(is_wall(across, step - 1), is_wall(across, step), [Facing::MinusY, Facing::PlusY]);
-        }
-    }
-    faces
 }
 
 /// A pull of 1 unit/s² that turns once in 3 s.
@@ -122,8 +89,8 @@ fn coherent(criterion: &mut Criterion, grids: &[Grid]) {
     let pulls = turning_pulls();
     for grid in grids {
         for (name, make) in ENGINES {
-            let middle = grid.side / TILE / 2 * TILE + TILE / 2;
-            let start = Ball::at(grid.centre(middle * grid.side + middle));
+            let middle = grid.maze.side / TILE / 2 * TILE + TILE / 2;
+            let start = Ball::at(grid.centre(middle * grid.maze.side + middle));
             let mut engine = make(grid, BallSpec::default(), start);
             group.throughput(Throughput::Elements(pulls.len() as u64));
             group.bench_function(BenchmarkId::new(name, grid.planes.len()), |bencher| {
@@ -141,7 +108,7 @@ fn random(criterion: &mut Criterion, grids: &[Grid]) {
             // Far from one another, in an order that no prefetcher guesses.
             let mut engines: Vec<_> = (0..N_BALLS)
                 .map(|n| {
-                    let cell = n.wrapping_mul(0x9e37_79b9_7f4a_7c15) % (grid.side * grid.side);
+                    let cell = n.wrapping_mul(0x9e37_79b9_7f4a_7c15) % (grid.maze.side * grid.maze.side);
                     make(grid, BallSpec::default(), Ball::at(grid.centre(cell)))
                 })
                 .collect();
