@@ -13,6 +13,8 @@ pub mod engine;
 
 #[cfg(feature = "report")]
 pub mod bars;
+#[cfg(feature = "bench")]
+pub mod bench;
 #[cfg(feature = "report")]
 mod contender;
 #[cfg(feature = "report")]

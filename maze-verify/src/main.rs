@@ -1,5 +1,6 @@
 //! `maze-verify`: the cross-check on the command line.
 
+mod benchmark;
 mod files;
 
 use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
@@ -26,6 +27,10 @@ enum Command {
     ///
     /// Example: maze-verify run --scene 'corner-*' --out target/report
     Run(RunArguments),
+    /// Times our searches beside what else a user would pick (exit status 1 when answers differ that must not)
+    ///
+    /// Example: maze-verify bench --quick --out target/bench
+    Bench(benchmark::BenchArguments),
     /// Joins the parts of a run that was split with --partition
     ///
     /// Example: maze-verify merge part1 part2 --out whole
@@ -73,6 +78,7 @@ fn main() -> ExitCode {
     let done = match CommandLine::parse().command {
         Command::List => list(),
         Command::Run(arguments) => run_scenes(&arguments),
+        Command::Bench(arguments) => benchmark::bench(&arguments),
         Command::Merge { parts, output } => merge(&parts, &output),
     };
     match done {

@@ -2,7 +2,7 @@
 
 mod drawing;
 mod html;
-mod number;
+pub(crate) mod number;
 mod plot;
 mod relaxed;
 mod summary;

@@ -1,7 +1,7 @@
 //! Numbers for people.
 
 /// Three digits; very small and very large ones as a power of ten.
-pub(super) fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         "0".to_owned()

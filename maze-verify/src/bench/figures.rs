@@ -1,0 +1,118 @@
+//! What was measured, and how it is told.
+
+use super::agreement::Disagreement;
+use super::machine::Machine;
+use super::paired::Series;
+use std::fmt::Write;
+
+/// The contender that all others are compared with.
+pub const REFERENCE: &str = "sorted planes";
+
+/// One question in one maze.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// As in the table.
+    pub question: &'static str,
+    /// Of the maze.
+    pub n_planes: usize,
+    /// Part of the queries that touch something.
+    pub hit_part: Option<f64>,
+    /// One a contender; the others' times are told as multiples of the first's.
+    pub series: Vec<Series>,
+}
+
+/// All of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// On which it was measured.
+    pub machine: Machine,
+    /// In the order of measuring.
+    pub groups: Vec<Group>,
+    /// Of all contenders that do not answer the same to the bit.
+    pub disagreements: Vec<Disagreement>,
+}
+
+/// The middle of several figures and how far they spread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// As many lie above as below.
+    pub median: f64,
+    /// A quarter lies below.
+    pub low: f64,
+    /// A quarter lies above.
+    pub high: f64,
+}
+
+impl Spread {
+    /// `None` of no figures.
+    pub fn of(mut figures: Vec<f64>) -> Option<Self> {
+        figures.sort_by(f64::total_cmp);
+        let at = |quarter: usize| figures.get((figures.len().checked_sub(1)? * quarter).div_ceil(4)).copied();
+        Some(Self { median: at(2)?, low: at(1)?, high: at(3)? })
+    }
+}
+
+impl Group {
+    /// A contender's times as multiples of the first's, round by round.
+    pub fn ratio(&self, contender: &str) -> Option<Spread> {
+        let (reference, series) = (self.series.first()?, self.series_of(contender)?);
+        Spread::of(series.ns.iter().zip(&reference.ns).map(|(ns, reference)| ns / reference).collect())
+    }
+
+    /// A contender's times (ns).
+    pub fn ns(&self, contender: &str) -> Option<Spread> {
+        Spread::of(self.series_of(contender)?.ns.clone())
+    }
+
+    fn series_of(&self, contender: &str) -> Option<&Series> {
+        self.series.iter().find(|series| series.name == contender)
+    }
+}
+
+impl Figures {
+    /// Whether all agree that must.
+    pub fn held(&self) -> bool {
+        self.disagreements.iter().all(|found| found.holds)
+    }
+
+    /// The questions, each once, in the order of measuring.
+    pub fn questions(&self) -> Vec<&'static str> {
+        distinct(self.groups.iter().map(|group| group.question))
+    }
+
+    /// All rounds, one a line.
+    pub fn csv(&self) -> String {
+        let mut text = String::new();
+        for line in self.machine.lines() {
+            let _ = writeln!(text, "# {line}");
+        }
+        text += "question,n_planes,hit_part,contender,round,ns,ratio\n";
+        for group in &self.groups {
+            let hit_part = group.hit_part.map_or_else(String::new, |part| part.to_string());
+            let reference = group.series.first().map_or(&[][..], |series| &series.ns);
+            for series in &group.series {
+                for (round, (ns, reference)) in series.ns.iter().zip(reference).enumerate() {
+                    let _ = writeln!(
+                        text,
+                        "{},{},{hit_part},{},{round},{ns:.3},{:.4}",
+                        group.question,
+                        group.n_planes,
+                        series.name,
+                        ns / reference
+                    );
+                }
+            }
+        }
+        text
+    }
+}
+
+/// Each once, in the order in which they first come.
+pub(super) fn distinct(names: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    names.fold(Vec::new(), |mut known, name| {
+        if !known.contains(&name) {
+            known.push(name);
+        }
+        known
+    })
+}
