@@ -60,6 +60,12 @@ impl Path {
         self.velocity + self.acceleration * time_s
     }
 
+    /// How far at most the path leaves the line of its initial velocity until a time (units).
+    fn straying(&self, until_s: f64) -> f64 {
+        let pull = self.acceleration;
+        (pull.x.abs() + pull.y.abs()) * (until_s * until_s / 2.0)
+    }
+
     /// Least and greatest coordinate along one axis from the start to a time.
     fn range_until(&self, axis: usize, until_s: f64) -> [f64; 2] {
         let (from, speed, pull) = (self.position[axis], self.velocity[axis], self.acceleration[axis]);
@@ -156,7 +162,11 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
 struct First<'a> {
     path: &'a Path,
     radius: f64,
+    /// How far from the centre what is touched can be (units).
+    reach: f64,
     horizon_s: f64,
+    /// [`Path::straying`] within the horizon.
+    straying: f64,
     until_s: f64,
     /// Least and greatest coordinate of the centre along both axes until then.
     ranges: [[f64; 2]; 2],
@@ -166,12 +176,8 @@ struct First<'a> {
 impl<'a> First<'a> {
     fn new(path: &'a Path, radius: f64, until_s: f64) -> Self {
         let ranges = [path.range_until(0, until_s), path.range_until(1, until_s)];
-        Self { path, radius, horizon_s: until_s, until_s, ranges, impact: None }
-    }
-
-    /// How far from the centre what is touched can be.
-    fn reach(&self) -> f64 {
-        self.radius * WIDENED
+        let (reach, straying) = (radius * WIDENED, path.straying(until_s));
+        Self { path, radius, reach, horizon_s: until_s, straying, until_s, ranges, impact: None }
     }
 
     /// Row by row in the direction of motion, and in each row the planes that the circle passes while it is in reach.
@@ -183,7 +189,7 @@ impl<'a> First<'a> {
         watch: &mut impl FnMut(Visit),
     ) {
         let axis = facing.axis();
-        let reach = self.reach();
+        let reach = self.reach;
         let [low, high] = self.ranges[axis];
         let offsets = [low - reach, high + reach];
         watch(Visit::Group { facing, offsets });
@@ -210,8 +216,16 @@ impl<'a> First<'a> {
         if let Some(time_s) = face(self.path, self.radius, &candidate.plane) {
             self.keep(Impact { time_s, touched: Touched::Face(candidate.plane) });
         }
-        for point in candidate.corners() {
-            if ignored == Some(point) || self.is_beside(point) {
+        let Face { plane, is_corner } = candidate;
+        for (along, is_corner) in [(plane.start, is_corner[0]), (plane.end, is_corner[1])] {
+            let point = plane.facing.point(plane.offset, along);
+            let is_known = self.impact.is_some_and(|known| known.touched == Touched::Corner(point));
+            if !is_corner
+                || self.is_beside(point)
+                || self.is_out_of_time(point)
+                || is_known
+                || ignored == Some(point)
+            {
                 continue;
             }
             // The root is sought within the whole time, not within what is left of it: its bits must not depend on what
@@ -224,11 +238,37 @@ impl<'a> First<'a> {
 
     /// Whether a point stays out of reach until the best impact so far: the usual case, told without a root.
     fn is_beside(&self, point: Vector2<f64>) -> bool {
-        let reach = self.reach();
-        [0, 1].into_iter().any(|axis| {
+        let reach = self.reach;
+        let is_off = |axis: usize| {
             let [low, high] = self.ranges[axis];
             point[axis] + reach < low || high < point[axis] - reach
-        })
+        };
+        if is_off(0) || is_off(1) {
+            return true;
+        }
+        // Beside the line of the initial velocity, from which the path strays little.
+        let (velocity, to_point) = (self.path.velocity, point - self.path.position);
+        let across = velocity.x * to_point.y - velocity.y * to_point.x;
+        let reach = reach + self.straying;
+        reach * reach * velocity.norm_squared() < across * across
+    }
+
+    /// Whether the path leads away from a point from the start, or is still out of its reach and closing at the best
+    /// impact so far.
+    ///
+    /// Either holds all the time where the squared distance is convex: where |v|² + d.a is positive, with v as fast as at
+    /// first but for what the acceleration takes, and d, to a point that is not beside, at most twice the way and the reach.
+    fn is_out_of_time(&self, point: Vector2<f64>) -> bool {
+        let (until_s, path) = (self.until_s, self.path);
+        let (speed, pull) = (path.velocity.norm(), path.acceleration.norm());
+        let slowest = speed - pull * until_s;
+        let farthest = 2.0 * ((speed + pull * until_s) * until_s + self.reach);
+        let is_convex = 0.0 < slowest && pull * farthest < slowest * slowest;
+        let (first, last) = (path.position - point, path.at(until_s) - point);
+        let is_left = 0.0 <= first.dot(&path.velocity);
+        let is_ahead =
+            last.dot(&path.velocity_at(until_s)) < 0.0 && self.reach * self.reach < last.norm_squared();
+        is_convex && (is_left || is_ahead)
     }
 
     fn keep(&mut self, impact: Impact) {
@@ -237,8 +277,9 @@ impl<'a> First<'a> {
             Some(known) => rank(&impact) < rank(&known),
         };
         if is_better {
-            let shorter = Self::new(self.path, self.radius, impact.time_s);
-            *self = Self { horizon_s: self.horizon_s, impact: Some(impact), ..shorter };
+            self.until_s = impact.time_s;
+            self.ranges = [0, 1].map(|axis| self.path.range_until(axis, impact.time_s));
+            self.impact = Some(impact);
         }
     }
 
@@ -246,7 +287,7 @@ impl<'a> First<'a> {
     ///
     /// On a short way the whole range will do.
     fn window(&self, axis: usize, offset: f64) -> [f64; 2] {
-        let reach = self.reach();
+        let reach = self.reach;
         let [low, high] = self.ranges[1 - axis];
         let [low, high] = if high - low < reach {
             [low, high]

@@ -105,7 +105,7 @@ pub enum PlaneError {
         plane: Plane,
     },
     /// More than an index can tell apart.
-    #[error("more than 536870912 planes of one facing")]
+    #[error("more than 268435456 planes of one facing")]
     TooMany,
 }
 

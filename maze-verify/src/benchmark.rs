@@ -36,7 +36,7 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<bool, BadInput> {
         bar.inc(1);
     };
     let figures =
-        measure(&plan, &search::contenders(), &on_step).map_err(|error| BadInput(error.to_string()))?;
+        measure(&plan, &search::CONTENDERS, &on_step).map_err(|error| BadInput(error.to_string()))?;
     bar.finish_and_clear();
     if let Some(out) = &arguments.out {
         files::write_whole(&out.join("bench.csv"), figures.csv().as_bytes())?;

@@ -1,55 +1,69 @@
 //! Which ends of faces are corners that a ball can touch.
 
-use super::{Face, SortedPlanes};
+use super::SortedPlanes;
+use super::group::{End, Group, Interval, n_32};
 use crate::plane::Facing;
 
-/// What a face's end is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum End {
-    /// It runs into a face that looks back along it.
-    Inward,
-    /// It meets a face that looks on.
-    Outward,
-    /// It meets none, as one side of a wall without thickness does.
-    Free,
+/// Looks up the intervals of one group where they meet a line that moves up along its rows.
+struct Cursors<'a> {
+    group: &'a Group,
+    /// For each row the first interval that does not end below the line.
+    next: Vec<u32>,
+}
+
+impl<'a> Cursors<'a> {
+    fn new(group: &'a Group) -> Self {
+        Self { group, next: group.rows.iter().map(|row| row.first).collect() }
+    }
+
+    /// The interval of the row at rank `across` that holds rank `along`, which must not be below the last one asked for.
+    fn at(&mut self, across: u32, along: u32) -> Option<Interval> {
+        let row = self.group.row_at(across)?;
+        let next = &mut self.next[row];
+        let last = self.group.rows[row].last;
+        while *next < last && self.group.intervals[*next as usize].end.is_below(along) {
+            *next += 1;
+        }
+        let interval = (*next < last).then(|| self.group.intervals[*next as usize])?;
+        (interval.start.rank() <= along).then_some(interval)
+    }
 }
 
 impl SortedPlanes {
     /// Tells corners that a ball can touch from those that it cannot, and finds out whether some ends are free.
     ///
     /// Where a +x face runs into a -y face that covers its front, a ball touches one of the two before it reaches the corner
-    /// between them, or the other end of a short one.
+    /// between them, or the other end of a short one. O(n): rows are passed in ascending order, and so are the intervals of
+    /// the faces that they meet.
     pub(super) fn find_corners(&mut self) {
+        let mut has_free_ends = false;
         for facing in Facing::ALL {
-            let ends: Vec<_> = self.faces(facing).map(|face| self.ends_of(&face)).collect();
-            self.has_free_ends |= ends.iter().flatten().any(|end| *end == End::Free);
-            let is_corner = ends.into_iter().map(|ends| ends.map(|end| end != End::Inward));
-            self.groups[facing as usize].is_corner = is_corner.collect();
-        }
-    }
-
-    fn ends_of(&self, face: &Face) -> [End; 2] {
-        let (facing, offset) = (face.plane.facing, face.plane.offset);
-        let [plus, minus] = Facing::across(1 - facing.axis());
-        let end = |along: f64, on: Facing, back: Facing| {
-            let meets = |other: Facing, is_met: &dyn Fn(f64, f64) -> bool| {
-                let row = self.rows_within(other, [along, along]).next();
-                row.is_some_and(|row| {
-                    row.within([offset, offset]).any(|met| is_met(met.plane.start, met.plane.end))
-                })
-            };
-            let covers_front = |start: f64, end: f64| {
-                if facing.sign() < 0.0 { start < offset } else { offset < end }
-            };
-            if meets(back, &covers_front) {
-                End::Inward
-            } else if meets(on, &|_, _| true) {
-                End::Outward
-            } else {
-                End::Free
+            // Put back below; the ends of one group do not depend on what is known about another's.
+            let mut intervals = std::mem::take(&mut self.groups[facing as usize].intervals);
+            let group = &self.groups[facing as usize];
+            let [mut plus, mut minus] =
+                Facing::across(1 - facing.axis()).map(|other| Cursors::new(self.group(other)));
+            for rank in 0..n_32(self.axes[facing.axis()].len()) {
+                let Some(row) = group.row_at(rank) else { continue };
+                for interval in &mut intervals[group.rows[row].range()] {
+                    let covers_front = |met: Interval| match facing.sign() < 0.0 {
+                        true => met.start.rank() < rank,
+                        false => rank < met.end.rank(),
+                    };
+                    let mut end = |end: End, on: &mut Cursors, back: &mut Cursors| {
+                        if back.at(end.rank(), rank).is_some_and(covers_front) {
+                            return End::new(end.rank(), false);
+                        }
+                        has_free_ends |= on.at(end.rank(), rank).is_none();
+                        End::new(end.rank(), true)
+                    };
+                    interval.start = end(interval.start, &mut minus, &mut plus);
+                    interval.end = end(interval.end, &mut plus, &mut minus);
+                }
             }
-        };
-        [end(face.plane.start, minus, plus), end(face.plane.end, plus, minus)]
+            self.groups[facing as usize].intervals = intervals;
+        }
+        self.has_free_ends = has_free_ends;
     }
 }
 

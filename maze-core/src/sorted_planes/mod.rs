@@ -1,11 +1,13 @@
 //! The report's data structure: wall faces in four groups, sorted, searched by bisection in the direction of motion.
 
+mod coordinates;
 mod corners;
-mod directory;
+mod group;
 mod nearby;
 
 use crate::plane::{Facing, Plane, PlaneError};
-use directory::Directory;
+use coordinates::Coordinates;
+use group::{Group, Interval, Row};
 use nalgebra::Vector2;
 pub use nearby::Clearance;
 use std::ops::Range;
@@ -13,39 +15,8 @@ use std::ops::Range;
 /// Searches look this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
 pub(crate) const WIDENED: f64 = 1.0 + 1.0e-6;
 
-/// Most planes of one facing: their directories, at most four entries a plane, are counted in 32 bits.
-const MAX_PLANES: usize = 1 << 29;
-
-/// Part of a row that is wall.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Interval {
-    start: f64,
-    end: f64,
-}
-
-/// All faces of one group that share an offset: `intervals[first..last]` of the group.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Row {
-    offset: f64,
-    first: u32,
-    last: u32,
-    /// Of the intervals' ends.
-    ends: Directory,
-}
-
-/// The faces that look one way.
-/// Invariant: offsets finite and ascending; a row's intervals are disjoint, do not touch, and ascend.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Group {
-    rows: Vec<Row>,
-    intervals: Vec<Interval>,
-    /// One for each interval: whether its start and its end are corners that a ball can touch.
-    is_corner: Vec<[bool; 2]>,
-    /// Of the rows' offsets.
-    offsets: Directory,
-    /// What the directories look up.
-    table: Vec<u32>,
-}
+/// Most planes of one facing: an axis has at most six coordinates for each, whose ranks are counted in 31 bits.
+const MAX_PLANES: usize = 1 << 28;
 
 /// Wall faces in four groups sorted by (offset, start, end). Built once in O(n log n), then searched by bisection.
 ///
@@ -54,8 +25,12 @@ struct Group {
 /// extent. Here a group is a list of rows of equal offset, each with disjoint sorted intervals: bisect for the first row
 /// in reach, walk the rows in the direction of motion, bisect in each for the interval. O(log n) a row within reach, and
 /// O(1) where offsets and interval ends are evenly spread: directories tell each bisection where to begin.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// A plane of a row takes 8 bytes and its part of the row's directory about 2: its start and end are kept as ranks among
+/// the coordinates of their axis, which a maze of right angles uses again and again.
+#[derive(Clone, Debug)]
 pub struct SortedPlanes {
+    axes: [Coordinates; 2],
     groups: [Group; 4], // in the order of Facing::ALL
     /// Whether a face somewhere ends without meeting another, as one side of a wall without thickness does.
     has_free_ends: bool,
@@ -68,29 +43,32 @@ pub(crate) struct Face {
     pub(crate) is_corner: [bool; 2],
 }
 
-impl Face {
-    /// The ends that are corners.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = Vector2<f64>> {
-        let ends = [self.plane.start, self.plane.end].into_iter().zip(self.is_corner);
-        let facing = self.plane.facing;
-        ends.filter(|(_, is_corner)| *is_corner).map(move |(along, _)| facing.point(self.plane.offset, along))
-    }
-}
-
 impl SortedPlanes {
     /// Sorts the planes and merges those of the same facing and offset that touch or overlap.
     ///
     /// # Errors
-    /// A plane with a coordinate that is not finite, or with no extent; more than 2²⁹ planes of one facing.
+    /// A plane with a coordinate that is not finite, or with no extent; more than 2²⁸ planes of one facing.
     pub fn new(planes: impl IntoIterator<Item = Plane>) -> Result<Self, PlaneError> {
-        let mut by_facing: [Vec<Plane>; 4] = Default::default();
+        let mut by_facing: [Vec<[f64; 3]>; 4] = Default::default();
         for (index, plane) in planes.into_iter().enumerate() {
-            by_facing[plane.facing as usize].push(plane.checked(index)?);
+            let Plane { facing, offset, start, end } = plane.checked(index)?;
+            // Adding 0 takes the sign of -0: coordinates are compared as numbers.
+            by_facing[facing as usize].push([offset, start, end].map(|value| value + 0.0));
         }
         if by_facing.iter().any(|planes| MAX_PLANES < planes.len()) {
             return Err(PlaneError::TooMany);
         }
-        let mut sorted = Self { groups: by_facing.map(Group::new), has_free_ends: false };
+        let axes = [0, 1].map(|axis| Coordinates::new(values_along(axis, &by_facing)));
+        let mut groups = <[Group; 4]>::default();
+        for (facing, planes) in Facing::ALL.into_iter().zip(by_facing) {
+            let (across, along) = (&axes[facing.axis()], &axes[1 - facing.axis()]);
+            let ranks = |[offset, start, end]: [f64; 3]| {
+                [across.rank_of(offset), along.rank_of(start), along.rank_of(end)]
+            };
+            let planes: Vec<_> = planes.into_iter().map(ranks).collect();
+            groups[facing as usize] = Group::new(&planes, across.len(), |rank| across.value(rank));
+        }
+        let mut sorted = Self { axes, groups, has_free_ends: false };
         sorted.find_corners();
         Ok(sorted)
     }
@@ -98,9 +76,8 @@ impl SortedPlanes {
     /// The same planes searched by bisection alone: what the directories are measured and tested against.
     #[must_use]
     pub fn without_directories(mut self) -> Self {
-        for group in &mut self.groups {
-            group.list_directories(|_| 1);
-        }
+        self.axes.iter_mut().for_each(|axis| axis.list_buckets(1));
+        self.groups.iter_mut().for_each(Group::drop_buckets);
         self
     }
 
@@ -141,10 +118,9 @@ impl SortedPlanes {
 
     /// One group in sorted order, with what is known about the planes' ends.
     pub(crate) fn faces(&self, facing: Facing) -> impl Iterator<Item = Face> {
-        let group = self.group(facing);
-        group.rows.iter().flat_map(move |row| {
-            let view = RowView { facing, group, row };
-            view.all().map(move |index| view.face(index))
+        self.group(facing).rows.iter().flat_map(move |row| {
+            let view = self.view(facing, row);
+            row.range().map(move |index| view.face(index))
         })
     }
 
@@ -181,17 +157,12 @@ impl SortedPlanes {
         facing: Facing,
         [low, high]: [f64; 2],
     ) -> impl Iterator<Item = RowView<'_>> {
-        let group = self.group(facing);
+        let (group, across) = (self.group(facing), &self.axes[facing.axis()]);
+        let (begin, end) = (group.row_from(across.n_below(low)), group.row_from(across.n_not_above(high)));
         let ascends = facing.sign() < 0.0;
-        let begin = if ascends {
-            group.bisect_rows(low, |offset| offset < low)
-        } else {
-            group.bisect_rows(high, |offset| offset <= high)
-        };
-        (0..).map_while(move |n| {
-            let index = if ascends { begin + n } else { begin.checked_sub(n + 1)? };
-            let row = group.rows.get(index)?;
-            (low <= row.offset && row.offset <= high).then_some(RowView { facing, group, row })
+        (begin..end).map(move |index| {
+            let index = if ascends { index } else { begin + (end - 1 - index) };
+            self.view(facing, &group.rows[index])
         })
     }
 
@@ -206,12 +177,33 @@ impl SortedPlanes {
     fn group(&self, facing: Facing) -> &Group {
         &self.groups[facing as usize]
     }
+
+    fn view<'a>(&'a self, facing: Facing, row: &'a Row) -> RowView<'a> {
+        RowView { facing, along: &self.axes[1 - facing.axis()], group: self.group(facing), row }
+    }
+}
+
+/// The same planes in the same order.
+impl PartialEq for SortedPlanes {
+    fn eq(&self, other: &Self) -> bool {
+        Facing::ALL.into_iter().all(|facing| self.faces(facing).eq(other.faces(facing)))
+    }
+}
+
+/// All numbers along one axis that planes use.
+fn values_along(axis: usize, by_facing: &[Vec<[f64; 3]>; 4]) -> Vec<f64> {
+    let list = |facing: Facing| &by_facing[facing as usize];
+    let offsets = Facing::across(axis).into_iter().flat_map(list).map(|[offset, ..]| *offset);
+    let ends = Facing::across(1 - axis).into_iter().flat_map(list).flat_map(|[_, start, end]| [*start, *end]);
+    offsets.chain(ends).collect()
 }
 
 /// A row, to look for planes in.
 #[derive(Clone, Copy)]
 pub(crate) struct RowView<'a> {
     facing: Facing,
+    /// Coordinates along the row.
+    along: &'a Coordinates,
     group: &'a Group,
     row: &'a Row,
 }
@@ -221,36 +213,31 @@ impl RowView<'_> {
         self.row.offset
     }
 
-    /// Where among the group's intervals the row's are.
-    fn all(&self) -> Range<usize> {
-        self.row.first as usize..self.row.last as usize
-    }
-
-    /// Index of the first interval that does not end below `low`.
-    fn bisect(&self, low: f64) -> usize {
-        let part = self.row.ends.narrow(&self.group.table, low);
-        part.start + self.group.intervals[part].partition_point(|interval| interval.end < low)
-    }
-
     fn plane(&self, interval: &Interval) -> Plane {
-        Plane { facing: self.facing, offset: self.row.offset, start: interval.start, end: interval.end }
+        let [start, end] = [interval.start, interval.end].map(|end| self.along.value(end.rank()));
+        Plane { facing: self.facing, offset: self.row.offset, start, end }
     }
 
     fn face(&self, index: usize) -> Face {
-        Face { plane: self.plane(&self.group.intervals[index]), is_corner: self.group.is_corner[index] }
+        let interval = &self.group.intervals[index];
+        let is_corner = [interval.start.is_corner(), interval.end.is_corner()];
+        Face { plane: self.plane(interval), is_corner }
     }
 
     /// The planes that touch a closed range along the row, ascending.
-    pub(crate) fn within(self, [low, high]: [f64; 2]) -> impl Iterator<Item = Face> {
-        let rest = self.bisect(low)..self.row.last as usize;
-        rest.take_while(move |index| self.group.intervals[*index].start <= high)
+    pub(crate) fn within(self, range: [f64; 2]) -> impl Iterator<Item = Face> {
+        let Range { start: from, end: to } = self.along.within(range);
+        let rest = self.group.interval_from(self.row, from)..self.row.last as usize;
+        rest.take_while(move |index| self.group.intervals[*index].start.is_below(to))
             .map(move |index| self.face(index))
     }
 
     /// The plane nearest to `along`, the lower one on a tie.
     fn nearest(&self, along: f64) -> Option<Plane> {
-        let next = self.bisect(along);
-        let at = |index: usize| self.all().contains(&index).then(|| self.plane(&self.group.intervals[index]));
+        let next = self.group.interval_from(self.row, self.along.n_below(along));
+        let at = |index: usize| {
+            self.row.range().contains(&index).then(|| self.plane(&self.group.intervals[index]))
+        };
         match (next.checked_sub(1).and_then(at), at(next)) {
             (Some(below), Some(above)) if above.gap(along) < below.gap(along) => Some(above),
             (Some(below), _) => Some(below),
@@ -262,62 +249,6 @@ impl RowView<'_> {
 /// Whether a point that far away along two axes is nearer than `radius`.
 pub(crate) fn is_within(across: f64, along: f64, radius: f64) -> bool {
     across * across + along * along < radius * radius
-}
-
-impl Group {
-    fn new(mut planes: Vec<Plane>) -> Self {
-        planes.sort_by(|a, b| {
-            a.offset.total_cmp(&b.offset).then(a.start.total_cmp(&b.start)).then(a.end.total_cmp(&b.end))
-        });
-        let mut group = Self::default();
-        let mut n_intervals = 0;
-        for plane in planes {
-            // Compared as numbers, so that rows at -0 and +0 are one row.
-            let same_row = group.rows.last().is_some_and(|row| row.offset == plane.offset);
-            if !same_row {
-                let ends = Directory::default();
-                group.rows.push(Row { offset: plane.offset, first: n_intervals, last: n_intervals, ends });
-            }
-            let interval = Interval { start: plane.start, end: plane.end };
-            match group.intervals.last_mut() {
-                Some(previous) if same_row && interval.start <= previous.end => {
-                    if previous.end < interval.end {
-                        previous.end = interval.end;
-                    }
-                }
-                _ => {
-                    group.intervals.push(interval);
-                    n_intervals += 1;
-                }
-            }
-            if let Some(row) = group.rows.last_mut() {
-                row.last = n_intervals;
-            }
-        }
-        group.is_corner = vec![[true; 2]; group.intervals.len()];
-        group.list_directories(|n_keys| n_keys);
-        group
-    }
-
-    /// Makes the directories, each with a number of buckets that follows from its number of keys.
-    fn list_directories(&mut self, n_buckets: impl Fn(u32) -> u32) {
-        self.table.clear();
-        for row in &mut self.rows {
-            let end = |n: u32| self.intervals[n as usize].end;
-            row.ends =
-                Directory::append(&mut self.table, row.first..row.last, n_buckets(row.last - row.first), end);
-        }
-        // No more rows than intervals, whose number fits.
-        let n_rows = u32::try_from(self.rows.len()).unwrap_or(u32::MAX);
-        let offset = |n: u32| self.rows[n as usize].offset;
-        self.offsets = Directory::append(&mut self.table, 0..n_rows, n_buckets(n_rows), offset);
-    }
-
-    /// Number of rows whose offsets are below `value`, as `is_below` tells them.
-    fn bisect_rows(&self, value: f64, is_below: impl Fn(f64) -> bool) -> usize {
-        let part = self.offsets.narrow(&self.table, value);
-        part.start + self.rows[part].partition_point(|row| is_below(row.offset))
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What is near a point, whichever way it moves.
 
-use super::{RowView, SortedPlanes, WIDENED, is_within};
+use super::{SortedPlanes, WIDENED, is_within};
 use crate::plane::{Facing, Plane};
 use nalgebra::Vector2;
 
@@ -74,14 +74,14 @@ impl SortedPlanes {
         for facing in Facing::ALL {
             let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
             let group = self.group(facing);
-            let begin = group.bisect_rows(across, |offset| offset < across);
+            let begin = group.row_from(self.axes[facing.axis()].n_below(across));
             let (below, above) = group.rows.split_at(begin);
             let mut walk = |rows: &mut dyn Iterator<Item = &super::Row>| {
                 for row in rows {
                     if nearest.is_nearer_than(row.offset - across) {
                         break;
                     }
-                    if let Some(plane) = (RowView { facing, group, row }).nearest(along) {
+                    if let Some(plane) = self.view(facing, row).nearest(along) {
                         nearest.offer(plane, centre);
                     }
                 }

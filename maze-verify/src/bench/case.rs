@@ -3,7 +3,7 @@
 use super::BenchError;
 use crate::board::Board;
 use maze_core::impact::Path;
-use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, SortedPlanes};
+use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, Radius, SortedPlanes};
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
 use rand_chacha::ChaCha8Rng;
@@ -25,8 +25,8 @@ pub const STEPS: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
 /// Of the layout and of the random queries: anything, so long as it stays.
 const SEED: u64 = 2020;
 
-/// A pull of 1 unit/s² turns round once in so many ticks.
-const TICKS_A_TURN: u32 = 100;
+/// A pull of 1 unit/s² turns round once in so many ticks: slowly enough that the ball meets walls again and again.
+const TICKS_A_TURN: u32 = 333;
 
 /// A face of the walls, and which of its ends are corners that a ball can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -199,23 +199,29 @@ impl Case {
     /// # Errors
     /// None that this maze and this ball give; the engine's own.
     pub fn coherent(&self, name: &'static str, n: usize) -> Result<QuerySet, BenchError> {
-        let spec = BallSpec::default();
+        let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
+        let spec = BallSpec { radius, ..BallSpec::default() };
         let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
         let ball = Ball::at(self.centre(middle, middle));
         let mut engine =
             Continuous::new(Arc::clone(&self.planes), spec, ball, TICK_S).map_err(BenchError::set_up)?;
         let mut queries = Vec::with_capacity(n);
         for pull in turning_pulls().into_iter().cycle().take(n) {
-            let Ball { position, velocity } = engine.ball();
-            let path = Path { position, velocity, acceleration: pull * spec.rolling };
-            queries.push(Query { path, until_s: TICK_S });
+            let before = engine.ball();
             engine.tick(pull).map_err(BenchError::set_up)?;
+            let after = engine.ball();
+            // What only presses the ball onto a wall that it rests on is no motion: the engine does not ask about it.
+            let rests = |axis| before.velocity[axis] == 0.0 && before.position[axis] == after.position[axis];
+            let moves = |axis, pull: f64| if rests(axis) { 0.0 } else { pull * spec.rolling };
+            let acceleration = Vector2::new(moves(0, pull.x), moves(1, pull.y));
+            let path = Path { position: before.position, velocity: before.velocity, acceleration };
+            queries.push(Query { path, until_s: TICK_S });
         }
         Ok(QuerySet { name, queries })
     }
 }
 
-/// A pull of 1 unit/s² that turns round once in 3 s, tick by tick.
+/// A pull of 1 unit/s² that turns round once in 10 s, tick by tick.
 pub fn turning_pulls() -> Vec<Vector2<f64>> {
     let turn = |tick: u32| f64::from(tick) / f64::from(TICKS_A_TURN) * std::f64::consts::TAU;
     (0..TICKS_A_TURN).map(|tick| Vector2::new(turn(tick).cos(), turn(tick).sin())).collect()
@@ -242,6 +248,7 @@ fn below(rng: &mut ChaCha8Rng, bound: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use maze_core::impact;
 
     #[test]
     fn the_faces_are_those_of_the_board_and_know_their_corners() {
@@ -269,8 +276,17 @@ mod tests {
             assert!(board.penetration(path.position, RADIUS) <= 1.0e-12);
             assert!((path.velocity.norm() * until_s - 10.0).abs() < 1.0e-12);
         }
-        let rolled = case.coherent("", 1000).unwrap().queries;
+    }
+
+    #[test]
+    fn a_rolling_ball_gets_around_and_meets_walls_now_and_then() {
+        let case = Case::new(8, 1).unwrap();
+        let rolled = case.coherent("", 3000).unwrap().queries;
         let from = rolled[0].path.position;
-        assert!(rolled.iter().any(|query| 0.1 < (query.path.position - from).norm()));
+        assert!(rolled.iter().any(|query| 1.0 < (query.path.position - from).norm()));
+        let touches =
+            |query: &&Query| impact::first(case.planes(), &query.path, RADIUS, query.until_s, None).is_some();
+        let n_touches = rolled.iter().filter(touches).count();
+        assert!((30..1500).contains(&n_touches), "{n_touches}");
     }
 }

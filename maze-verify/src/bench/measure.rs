@@ -33,7 +33,7 @@ impl Plan {
     /// Under a minute: about 10², 10³, 10⁴, 10⁵ and 10⁶ planes.
     pub fn quick() -> Self {
         Self {
-            sizes: vec![[8, 1], [24, 1], [24, 3], [24, 10], [24, 32]],
+            sizes: vec![[9, 1], [27, 1], [27, 3], [27, 10], [27, 32]],
             n_checked: 10_000,
             n_queries: 100_000,
             n_rounds: 5,
@@ -44,7 +44,7 @@ impl Plan {
     /// Minutes: up to about 10⁷ planes.
     pub fn full() -> Self {
         let mut sizes = Self::quick().sizes;
-        sizes.push([24, 100]);
+        sizes.push([27, 100]);
         Self { sizes, n_rounds: 21, batch: Duration::from_millis(8), ..Self::quick() }
     }
 }

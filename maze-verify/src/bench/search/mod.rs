@@ -1,7 +1,10 @@
 //! The contenders: everything that finds what a swept circle touches first.
 
+mod bit_grid;
 mod parry2d;
+mod parry3d;
 mod planes;
+mod trees;
 
 use super::agreement::Agreement;
 use super::case::{Case, Query};
@@ -37,32 +40,73 @@ pub struct Contender {
     pub build: Build,
 }
 
-/// Measured at every size.
-const ANY: usize = usize::MAX;
+/// About 10⁶ planes: what takes hundreds of bytes a plane, or minutes to build, stops here.
+const MILLION: usize = 2_000_000;
+
+/// The reason why answers of parry differ, and how many may.
+const CASTS: Agreement = Agreement::Mostly {
+    part: 0.05,
+    reason: "computed in f32, by iteration to a tolerance; along the chord of a parabola",
+};
+
+/// What is told of one contender after the other.
+const fn contender(name: &'static str, about: &'static str, agreement: Agreement, build: Build) -> Contender {
+    Contender { name, about, agreement, max_planes: usize::MAX, build }
+}
+
+impl Contender {
+    const fn up_to(self, max_planes: usize) -> Self {
+        Self { max_planes, ..self }
+    }
+}
 
 /// All of them; the first is what the others are compared with.
-pub fn contenders() -> Vec<Contender> {
-    vec![
-        Contender {
-            name: super::REFERENCE,
-            about: "maze-core: impact::first",
-            agreement: Agreement::Exact,
-            max_planes: ANY,
-            build: planes::sorted,
-        },
-        Contender {
-            name: "naive scan",
-            about: "maze-core: impact::first_scan, every plane",
-            agreement: Agreement::Exact,
-            max_planes: 20_000,
-            build: planes::scan,
-        },
-        Contender {
-            name: "parry2d compound",
-            about: "parry2d 0.31.1: cast_shapes, ball against a Compound of cuboids",
-            agreement: Agreement::Mostly { part: 0.05, reason: "f32" },
-            max_planes: ANY,
-            build: parry2d::compound,
-        },
+pub const CONTENDERS: [Contender; 13] = {
+    use Agreement::{Exact, OtherQuestion};
+    [
+        contender(
+            super::REFERENCE,
+            "maze-core: impact::first, the search that the game uses",
+            Exact,
+            planes::sorted,
+        ),
+        contender("bisection alone", "the same without directories", Exact, planes::without_directories),
+        contender("naive scan", "maze-core: impact::first_scan, every plane", Exact, planes::scan)
+            .up_to(2_000),
+        contender(
+            "bit grid",
+            "4 bits a cell: the practical limit, for grid mazes alone",
+            Exact,
+            bit_grid::build,
+        ),
+        contender("rstar", "R*-tree of the faces, then maze-core's time of impact", Exact, trees::rstar)
+            .up_to(MILLION),
+        contender(
+            "bvh",
+            "the crate bvh: tree of the faces, then maze-core's time of impact",
+            Exact,
+            trees::bvh,
+        )
+        .up_to(MILLION),
+        contender(
+            "published",
+            "what the report's engine asks: is there an overlap after each step",
+            OtherQuestion("an overlap at the end of a step, not the time of a touch"),
+            planes::published,
+        ),
+        contender("parry2d compound", "cast_shapes: a ball, a Compound of cuboids", CASTS, parry2d::compound),
+        contender("parry2d mesh", "cast_shapes: a ball, a TriMesh of the walls", CASTS, parry2d::mesh)
+            .up_to(MILLION),
+        contender("parry3d compound", "the same in three dimensions", CASTS, parry3d::compound),
+        contender("parry3d mesh", "a TriMesh of the walls' sides", CASTS, parry3d::mesh).up_to(MILLION),
+        contender("rapier3d cast", "QueryPipeline::cast_shape, a collider a wall", CASTS, parry3d::pipeline)
+            .up_to(MILLION),
+        contender(
+            "rapier3d broad phase",
+            "BroadPhaseBvh::update with the ball moved, a collider a wall",
+            OtherQuestion("pairs of boxes that meet, not the time of a touch"),
+            parry3d::broad_phase,
+        )
+        .up_to(MILLION),
     ]
-}
+};

@@ -4,7 +4,7 @@ use super::{BenchError, Case, Query, Search};
 use crate::bench::case::RADIUS;
 use parry2d::math::{Pose, Vector};
 use parry2d::query::{ShapeCastOptions, cast_shapes};
-use parry2d::shape::{Ball, Compound, Shape, SharedShape};
+use parry2d::shape::{Ball, Compound, Shape, SharedShape, TriMesh};
 
 /// Walls as one shape.
 struct Walls<S> {
@@ -33,6 +33,20 @@ pub(super) fn compound(case: &Case) -> Result<Box<dyn Search>, BenchError> {
         (at, SharedShape::cuboid(to_f32(half.x), to_f32(half.y)))
     };
     let shape = Compound::new(case.rectangles().into_iter().map(cuboid).collect());
+    Ok(Box::new(Walls { shape, ball: Ball::new(to_f32(RADIUS)) }))
+}
+
+/// Two triangles a wall.
+pub(super) fn mesh(case: &Case) -> Result<Box<dyn Search>, BenchError> {
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    for wall in case.rectangles() {
+        let first = u32::try_from(vertices.len()).map_err(BenchError::set_up)?;
+        let [[x0, y0], [x1, y1]] = [wall.low, wall.high].map(|corner| [to_f32(corner.x), to_f32(corner.y)]);
+        vertices.extend([(x0, y0), (x1, y0), (x1, y1), (x0, y1)].map(|(x, y)| Vector::new(x, y)));
+        triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    let shape = TriMesh::new(vertices, triangles).map_err(BenchError::set_up)?;
     Ok(Box::new(Walls { shape, ball: Ball::new(to_f32(RADIUS)) }))
 }
 

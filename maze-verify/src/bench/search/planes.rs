@@ -2,12 +2,13 @@
 
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::RADIUS;
-use maze_core::SortedPlanes;
+use maze_core::engine::published::SUBSTEP;
 use maze_core::impact::{self, Impact, Path};
+use maze_core::{Facing, SortedPlanes};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// A search that maze-core offers.
+/// A search that gives the first impact.
 struct Planes<F> {
     planes: Arc<SortedPlanes>,
     find: F,
@@ -24,7 +25,42 @@ pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
     Ok(Box::new(Planes { planes: Arc::clone(case.planes()), find: impact::first }))
 }
 
+/// The same by bisection alone.
+pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
+    let planes = Arc::new(SortedPlanes::clone(case.planes()).without_directories());
+    Ok(Box::new(Planes { planes, find: impact::first }))
+}
+
 /// Every plane of every group.
 pub(super) fn scan(case: &Case) -> Result<Box<dyn Search>, BenchError> {
     Ok(Box::new(Planes { planes: Arc::clone(case.planes()), find: impact::first_scan }))
+}
+
+/// What the report's engine asks: an overlap at the end of a step, or after every 0.02 units of one longer than the radius.
+struct Published(Arc<SortedPlanes>);
+
+impl Search for Published {
+    fn first_touch(&mut self, query: &Query) -> Option<f64> {
+        let way = query.mean_velocity() * query.until_s;
+        let length = way.norm();
+        let n_steps = if RADIUS < length { (length / SUBSTEP).ceil() } else { 1.0 };
+        let overlaps = |part: f64| {
+            let centre = query.path.position + way * part;
+            let mut facings = Facing::opposing(way);
+            facings.any(|facing| self.0.first_overlap(facing, centre, RADIUS).is_some())
+        };
+        let mut step = 1.0;
+        while step <= n_steps {
+            if overlaps(step / n_steps) {
+                return Some(step / n_steps * query.until_s);
+            }
+            step += 1.0;
+        }
+        None
+    }
+}
+
+/// The search of the report's engine.
+pub(super) fn published(case: &Case) -> Result<Box<dyn Search>, BenchError> {
+    Ok(Box::new(Published(Arc::clone(case.planes()))))
 }
