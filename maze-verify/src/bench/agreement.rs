@@ -27,7 +27,7 @@ pub enum Agreement {
 pub struct Disagreement {
     /// Whose answers.
     pub contender: &'static str,
-    /// To which queries.
+    /// To which queries, or of which question.
     pub queries: &'static str,
     /// In a maze of so many planes.
     pub n_planes: usize,
@@ -35,11 +35,13 @@ pub struct Disagreement {
     pub n_asked: usize,
     /// Not the same to the bit.
     pub n_different: usize,
-    /// Both touch something, more than [`APART`] from one another.
+    /// What counts as apart (units): [`APART`] along the way of a query.
+    pub limit: f64,
+    /// Both answer, farther apart than that.
     pub n_apart: usize,
     /// One of them touches something and the other does not.
     pub n_missed: usize,
-    /// Largest distance between two touches along the way (units).
+    /// Largest distance between two answers (units).
     pub worst: f64,
     /// Whether it is what was asked.
     pub holds: bool,
@@ -65,6 +67,7 @@ pub fn compare(
         queries,
         n_planes,
         n_asked,
+        limit: APART,
         n_different: 0,
         n_apart: 0,
         n_missed: 0,

@@ -174,6 +174,19 @@ impl Case {
         Vector2::new(column, row).map(|index| line_at(2 * index + 1) + extrude::CORRIDOR / 2.0)
     }
 
+    /// The middle of a cell in the middle of the maze: the same place of the tile in all sizes.
+    pub fn middle(&self) -> Vector2<f64> {
+        let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
+        self.centre(middle, middle)
+    }
+
+    /// The middles of so many cells, far from one another and in an order that no prefetcher guesses.
+    pub fn scattered(&self, n: usize) -> Vec<Vector2<f64>> {
+        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+        let mut index = || below(&mut rng, self.side);
+        (0..n).map(|_| self.centre(index(), index())).collect()
+    }
+
     /// Circles anywhere in free cells that move so far (units) in any direction within 1 s.
     pub fn random(&self, name: &'static str, step: f64, n: usize) -> QuerySet {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
@@ -199,10 +212,7 @@ impl Case {
     /// # Errors
     /// None that this maze and this ball give; the engine's own.
     pub fn coherent(&self, name: &'static str, n: usize) -> Result<QuerySet, BenchError> {
-        let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
-        let spec = BallSpec { radius, ..BallSpec::default() };
-        let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
-        let ball = Ball::at(self.centre(middle, middle));
+        let (spec, ball) = (spec(), Ball::at(self.middle()));
         let mut engine =
             Continuous::new(Arc::clone(&self.planes), spec, ball, TICK_S).map_err(BenchError::set_up)?;
         let mut queries = Vec::with_capacity(n);
@@ -219,6 +229,12 @@ impl Case {
         }
         Ok(QuerySet { name, queries })
     }
+}
+
+/// A ball of [`RADIUS`], else as in the game.
+pub fn spec() -> BallSpec {
+    let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
+    BallSpec { radius, ..BallSpec::default() }
 }
 
 /// A pull of 1 unit/s² that turns round once in 10 s, tick by tick.

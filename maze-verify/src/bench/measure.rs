@@ -6,6 +6,7 @@ use super::figures::{Figures, Group};
 use super::machine::Machine;
 use super::paired::{Runner, time};
 use super::search::{Contender, Search};
+use super::tick;
 use std::time::Duration;
 
 /// Names of the random queries, one a length of [`STEPS`].
@@ -19,6 +20,8 @@ const COHERENT: &str = "rolling ball";
 pub struct Plan {
     /// Cells along a tile and tiles along a maze, one pair a size.
     pub sizes: Vec<[usize; 2]>,
+    /// The same for the questions about whole ticks.
+    pub tick_sizes: Vec<[usize; 2]>,
     /// Queries of each kind that all contenders answer before any is timed.
     pub n_checked: usize,
     /// Queries of each kind that are asked in turn: so many that caches do not hold what the last round has read.
@@ -32,8 +35,10 @@ pub struct Plan {
 impl Plan {
     /// Under a minute: about 10², 10³, 10⁴, 10⁵ and 10⁶ planes.
     pub fn quick() -> Self {
+        let sizes = vec![[9, 1], [27, 1], [27, 3], [27, 10], [27, 32]];
         Self {
-            sizes: vec![[9, 1], [27, 1], [27, 3], [27, 10], [27, 32]],
+            tick_sizes: sizes.clone(),
+            sizes,
             n_checked: 10_000,
             n_queries: 100_000,
             n_rounds: 5,
@@ -44,8 +49,11 @@ impl Plan {
     /// Minutes: up to about 10⁷ planes.
     pub fn full() -> Self {
         let mut sizes = Self::quick().sizes;
+        let mut tick_sizes = sizes.clone();
         sizes.push([27, 100]);
-        Self { sizes, n_rounds: 21, batch: Duration::from_millis(8), ..Self::quick() }
+        // In between, a maze of about 10⁶ walls: as many colliders, for who takes each as one.
+        tick_sizes.extend([[27, 50], [27, 100]]);
+        Self { sizes, tick_sizes, n_rounds: 21, batch: Duration::from_millis(8), ..Self::quick() }
     }
 }
 
@@ -75,7 +83,7 @@ pub fn measure(
     on_step: &dyn Fn(&str, usize),
 ) -> Result<Figures, BenchError> {
     let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), disagreements: Vec::new() };
-    let n_steps = plan.sizes.len() * (1 + RANDOM.len() + 1);
+    let n_steps = plan.sizes.len() * (1 + RANDOM.len() + 1) + tick::n_steps(plan);
     for [tile, n_tiles] in &plan.sizes {
         let case = Case::new(*tile, *n_tiles)?;
         let n_planes = case.planes().len();
@@ -90,6 +98,7 @@ pub fn measure(
             figures.groups.push(group(plan, n_planes, &mut built, &set));
         }
     }
+    tick::measure(plan, &mut figures, &|what| on_step(what, n_steps))?;
     Ok(figures)
 }
 
@@ -136,8 +145,8 @@ fn group(plan: &Plan, n_planes: usize, built: &mut [Built], set: &QuerySet) -> G
         .collect();
     let series = time(&mut runners, plan.n_rounds, plan.batch);
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let hit_part = hits as f64 / plan.n_checked.min(set.queries.len()).max(1) as f64;
-    Group { question: set.name, n_planes, hit_part: Some(hit_part), series }
+    let touches = hits as f64 / plan.n_checked.min(set.queries.len()).max(1) as f64;
+    Group { question: set.name, n_planes, touches: Some(touches), series }
 }
 
 /// Asks query after query, from the first again after the last.

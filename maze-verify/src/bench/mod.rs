@@ -14,6 +14,7 @@ mod measure;
 pub mod paired;
 pub mod search;
 mod table;
+pub mod tick;
 
 pub use agreement::{Agreement, Disagreement};
 pub use case::{Case, Query, QuerySet};

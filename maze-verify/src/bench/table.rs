@@ -33,10 +33,8 @@ impl Figures {
             let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
         };
         line("planes", &|group| group.n_planes.to_string());
-        if groups.iter().any(|group| group.hit_part.is_some()) {
-            line("touch something", &|group| {
-                group.hit_part.map_or_else(String::new, |part| format!("{:.1} %", 100.0 * part))
-            });
+        if groups.iter().any(|group| group.touches.is_some()) {
+            line("touches", &|group| group.touches.map_or_else(String::new, plain));
         }
         line(reference, &|group| shown(group.ns(reference)));
         for name in others {
@@ -61,7 +59,7 @@ impl Figures {
                 found.n_asked,
                 found.n_different,
                 found.n_apart,
-                super::agreement::APART,
+                found.limit,
                 plain(found.worst),
                 found.n_missed,
             );
