@@ -1,7 +1,7 @@
 //! Whether contenders give the same answers, and by how much those differ that do not.
 
 use super::case::QuerySet;
-use super::search::Search;
+use super::search::{Contender, Search};
 
 /// Answers that differ by more than this (units along the way) count as different: what the game would show.
 pub const APART: f64 = 1.0e-3;
@@ -24,18 +24,20 @@ pub enum Agreement {
 
 /// How a contender's answers compare with those of the sorted planes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Disagreement {
+pub struct Comparison {
     /// Whose answers.
     pub contender: &'static str,
-    /// To which queries, or of which question.
+    /// What is asked of them.
+    pub agreement: Agreement,
+    /// To which queries, or of which question about ticks.
     pub queries: &'static str,
     /// In a maze of so many planes.
     pub n_planes: usize,
-    /// Compared.
+    /// Compared; 0 for a contender that answers another question.
     pub n_asked: usize,
     /// Not the same to the bit.
     pub n_different: usize,
-    /// What counts as apart (units): [`APART`] along the way of a query.
+    /// What counts as apart (units).
     pub limit: f64,
     /// Both answer, farther apart than that.
     pub n_apart: usize,
@@ -47,23 +49,41 @@ pub struct Disagreement {
     pub holds: bool,
 }
 
-/// What the sorted planes answer: the truth that the others are held to.
-pub fn answers(search: &mut dyn Search, set: &QuerySet, n: usize) -> Vec<Option<f64>> {
-    set.queries.iter().take(n).map(|query| search.first_touch(query)).collect()
+/// Contenders and what they have built.
+pub type Built<'a> = (&'a Contender, Box<dyn Search>);
+
+/// All answer the first `n` queries: how the others' answers compare with the first one's, and which part of those are touches.
+pub fn check(built: &mut [Built], n_planes: usize, set: &QuerySet, n: usize) -> (Vec<Comparison>, f64) {
+    let Some(((_, reference), others)) = built.split_first_mut() else { return (Vec::new(), 0.0) };
+    let answers = |search: &mut dyn Search| -> Vec<Option<f64>> {
+        set.queries.iter().take(n).map(|query| search.first_touch(query)).collect()
+    };
+    let truth = answers(reference.as_mut());
+    let comparisons = others.iter_mut().map(|(contender, search)| {
+        let given = match contender.agreement {
+            Agreement::OtherQuestion(_) => Vec::new(),
+            _ => answers(search.as_mut()),
+        };
+        compare(contender.name, contender.agreement, n_planes, set, [&truth, &given])
+    });
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    let touches = truth.iter().flatten().count() as f64 / truth.len().max(1) as f64;
+    (comparisons.collect(), touches)
 }
 
-/// Compares answers; `None` for a contender that answers another question.
-pub fn compare(
+/// Compares answers.
+fn compare(
     contender: &'static str,
     agreement: Agreement,
     n_planes: usize,
     set: &QuerySet,
     [truth, given]: [&[Option<f64>]; 2],
-) -> Option<Disagreement> {
+) -> Comparison {
     let queries = set.name;
     let n_asked = given.len();
-    let mut found = Disagreement {
+    let mut found = Comparison {
         contender,
+        agreement,
         queries,
         n_planes,
         n_asked,
@@ -91,12 +111,18 @@ pub fn compare(
             }
         }
     }
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let part = (found.n_apart + found.n_missed) as f64 / (n_asked.max(1)) as f64;
     found.holds = match agreement {
         Agreement::Exact => found.n_different == 0,
-        Agreement::Mostly { part: most, .. } => part <= most,
-        Agreement::OtherQuestion(_) => return None,
+        Agreement::Mostly { part, .. } => found.part_off() <= part,
+        Agreement::OtherQuestion(_) => true,
     };
-    Some(found)
+    found
+}
+
+impl Comparison {
+    /// Part of the answers that are off by more than [`APART`] or missed.
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    pub fn part_off(&self) -> f64 {
+        (self.n_apart + self.n_missed) as f64 / self.n_asked.max(1) as f64
+    }
 }

@@ -43,6 +43,7 @@ pub struct Case {
     side: usize,
     faces: Vec<WallFace>,
     planes: Arc<SortedPlanes>,
+    rectangles: Vec<Bounds>,
 }
 
 /// A circle of [`RADIUS`] on a path: what does it touch first, if anything?
@@ -85,6 +86,7 @@ impl Case {
             tile: layout,
             faces: Vec::new(),
             planes: Arc::new(SortedPlanes::new([]).map_err(BenchError::set_up)?),
+            rectangles: Vec::new(),
         };
         for axis in [0, 1] {
             for line in 1..case.n_blocks() {
@@ -93,6 +95,7 @@ impl Case {
         }
         let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?;
         case.planes = Arc::new(planes);
+        case.rectangles = Board::from_planes(&case.planes).rectangles().to_vec();
         Ok(case)
     }
 
@@ -117,8 +120,8 @@ impl Case {
     }
 
     /// The walls as solid rectangles, as long as they go on: what a user would hand to a physics engine.
-    pub fn rectangles(&self) -> Vec<Bounds> {
-        Board::from_planes(&self.planes).rectangles().to_vec()
+    pub fn rectangles(&self) -> &[Bounds] {
+        &self.rectangles
     }
 
     /// Blocks along each side: walls and posts at even places, cells and passages at odd ones.
@@ -270,7 +273,7 @@ mod tests {
     fn the_faces_are_those_of_the_board_and_know_their_corners() {
         let case = Case::new(5, 2).unwrap();
         assert_eq!(case.faces().len(), case.planes().len(), "each as long as it goes on");
-        let again = Board::from_rectangles(case.rectangles()).unwrap();
+        let again = Board::from_rectangles(case.rectangles().to_vec()).unwrap();
         // A maze has no faces towards the outside; the solid around it has four.
         assert_eq!(again.planes().len(), case.planes().len() + 4);
         // A post stands at either side of a corner, or a wall ends at it: two faces meet.

@@ -1,6 +1,6 @@
 //! What was measured, and how it is told.
 
-use super::agreement::Disagreement;
+use super::agreement::Comparison;
 use super::machine::Machine;
 use super::paired::Series;
 use std::fmt::Write;
@@ -28,8 +28,8 @@ pub struct Figures {
     pub machine: Machine,
     /// In the order of measuring.
     pub groups: Vec<Group>,
-    /// Of all contenders that do not answer the same to the bit.
-    pub disagreements: Vec<Disagreement>,
+    /// Of every contender's answers with the first's, to every kind of query at every size.
+    pub comparisons: Vec<Comparison>,
 }
 
 /// The middle of several figures and how far they spread.
@@ -72,7 +72,7 @@ impl Group {
 impl Figures {
     /// Whether all agree that must.
     pub fn held(&self) -> bool {
-        self.disagreements.iter().all(|found| found.holds)
+        self.comparisons.iter().all(|found| found.holds)
     }
 
     /// The questions, each once, in the order of measuring.
@@ -102,6 +102,24 @@ impl Figures {
                     );
                 }
             }
+        }
+        text
+    }
+}
+
+impl Figures {
+    /// How the answers compare, one line a contender, kind of query and size.
+    pub fn agreement_csv(&self) -> String {
+        let mut text = String::from(
+            "contender,queries,n_planes,asked,different,apart,apart_by_units,missed,worst_units,holds\n",
+        );
+        for found in &self.comparisons {
+            let Comparison { contender, queries, n_planes, n_asked, .. } = found;
+            let Comparison { n_different, n_apart, limit, n_missed, worst, holds, .. } = found;
+            let _ = writeln!(
+                text,
+                "{contender},{queries},{n_planes},{n_asked},{n_different},{n_apart},{limit},{n_missed},{worst:e},{holds}"
+            );
         }
         text
     }

@@ -1,19 +1,24 @@
 //! A run of the benchmark: every size, every question, every contender.
 
-use super::agreement::{Agreement, Disagreement, answers, compare};
+use super::agreement::{Built, check};
 use super::case::{Case, QuerySet, STEPS};
 use super::figures::{Figures, Group};
 use super::machine::Machine;
-use super::paired::{Runner, time};
-use super::search::{Contender, Search};
-use super::tick;
-use std::time::Duration;
+use super::paired::{Runner, Series, time};
+use super::search::{Contender, in_turn};
+use std::time::{Duration, Instant};
 
 /// Names of the random queries, one a length of [`STEPS`].
 const RANDOM: [&str; STEPS.len()] = ["random 0.01", "random 0.1", "random 1", "random 10"];
 
 /// The name of the queries of a rolling ball.
 const COHERENT: &str = "rolling ball";
+
+/// The name of the time that it takes to make a structure.
+const BUILD: &str = "build (a plane)";
+
+/// Mazes of up to so many planes are built again each round; larger ones take long enough to be timed once.
+const BUILT_AGAIN: usize = 20_000;
 
 /// How much is measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +62,30 @@ impl Plan {
     }
 }
 
+impl Plan {
+    /// Only mazes of at most about so many planes.
+    #[must_use]
+    pub fn up_to(mut self, n_planes: usize) -> Self {
+        // 1.42 planes a cell, of tiles as large as these.
+        for sizes in [&mut self.sizes, &mut self.tick_sizes] {
+            sizes.retain(|[tile, n_tiles]| 142 * (tile * n_tiles).pow(2) / 100 <= n_planes);
+        }
+        self
+    }
+
+    /// Every kind of queries in a maze.
+    ///
+    /// # Errors
+    /// As [`Case::coherent`].
+    pub fn query_sets(&self, case: &Case) -> Result<Vec<QuerySet>, BenchError> {
+        let random = RANDOM.into_iter().zip(STEPS);
+        let mut sets: Vec<QuerySet> =
+            random.map(|(name, step)| case.random(name, step, self.n_queries)).collect();
+        sets.push(case.coherent(COHERENT, self.n_queries)?);
+        Ok(sets)
+    }
+}
+
 /// Why there are no figures.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BenchError {
@@ -71,71 +100,62 @@ impl BenchError {
     }
 }
 
-/// Measures all; `on_step` hears what comes next and how many steps there are.
+/// How often [`measure`] tells what comes next.
+pub fn n_steps(plan: &Plan) -> usize {
+    plan.sizes.len() * (1 + RANDOM.len() + 1)
+}
+
+/// Measures all searches; `on_step` hears what comes next.
 ///
-/// Contenders that do not agree are not timed at that size; [`Figures::disagreements`] names them.
+/// Contenders whose answers are wrong are timed all the same; [`Figures::held`] tells, and the table names them.
 ///
 /// # Errors
 /// A maze, a structure or an engine that cannot be made.
-pub fn measure(
-    plan: &Plan,
-    contenders: &[Contender],
-    on_step: &dyn Fn(&str, usize),
-) -> Result<Figures, BenchError> {
-    let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), disagreements: Vec::new() };
-    let n_steps = plan.sizes.len() * (1 + RANDOM.len() + 1) + tick::n_steps(plan);
+pub fn measure(plan: &Plan, contenders: &[Contender], on_step: &dyn Fn(&str)) -> Result<Figures, BenchError> {
+    let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), comparisons: Vec::new() };
     for [tile, n_tiles] in &plan.sizes {
         let case = Case::new(*tile, *n_tiles)?;
         let n_planes = case.planes().len();
-        on_step(&format!("building, {n_planes} planes"), n_steps);
-        let mut built = Vec::new();
-        for contender in contenders.iter().filter(|contender| n_planes <= contender.max_planes) {
-            built.push((contender, (contender.build)(&case)?));
-        }
-        for set in query_sets(&case, plan)? {
-            on_step(&format!("{}, {n_planes} planes", set.name), n_steps);
-            check(&mut figures.disagreements, plan, n_planes, &mut built, &set);
-            figures.groups.push(group(plan, n_planes, &mut built, &set));
+        on_step(&format!("building, {n_planes} planes"));
+        let (mut built, group_of_builds) = build_all(plan, &case, contenders)?;
+        figures.groups.push(group_of_builds);
+        for set in plan.query_sets(&case)? {
+            on_step(&format!("{}, {n_planes} planes", set.name));
+            let (comparisons, touches) = check(&mut built, n_planes, &set, plan.n_checked);
+            figures.comparisons.extend(comparisons);
+            let series = time_all(plan, &mut built, &set);
+            figures.groups.push(Group { question: set.name, n_planes, touches: Some(touches), series });
         }
     }
-    tick::measure(plan, &mut figures, &|what| on_step(what, n_steps))?;
     Ok(figures)
 }
 
-fn query_sets(case: &Case, plan: &Plan) -> Result<Vec<QuerySet>, BenchError> {
-    let random = RANDOM.into_iter().zip(STEPS);
-    let mut sets: Vec<QuerySet> =
-        random.map(|(name, step)| case.random(name, step, plan.n_queries)).collect();
-    sets.push(case.coherent(COHERENT, plan.n_queries)?);
-    Ok(sets)
-}
-
-type Built<'a> = (&'a Contender, Box<dyn Search>);
-
-/// All answer the same queries before any is timed.
-fn check(
-    disagreements: &mut Vec<Disagreement>,
+/// Makes every contender's structure, the small ones several times in turn.
+fn build_all<'a>(
     plan: &Plan,
-    n_planes: usize,
-    built: &mut [Built],
-    set: &QuerySet,
-) {
-    let Some(((_, reference), others)) = built.split_first_mut() else { return };
-    let truth = answers(reference.as_mut(), set, plan.n_checked);
-    for (contender, search) in others {
-        if matches!(contender.agreement, Agreement::OtherQuestion(_)) {
-            continue;
+    case: &Case,
+    contenders: &'a [Contender],
+) -> Result<(Vec<Built<'a>>, Group), BenchError> {
+    let n_planes = case.planes().len();
+    let taking_part = || contenders.iter().filter(|contender| n_planes <= contender.max_planes);
+    let mut series: Vec<Series> =
+        taking_part().map(|contender| Series { name: contender.name, ns: Vec::new() }).collect();
+    let mut built = Vec::new();
+    let n_rounds = if n_planes <= BUILT_AGAIN { plan.n_rounds } else { 1 };
+    for _ in 0..n_rounds {
+        built.clear();
+        for (contender, series) in taking_part().zip(&mut series) {
+            let start = Instant::now();
+            built.push((contender, (contender.build)(case)?));
+            #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+            series.ns.push(start.elapsed().as_secs_f64() * 1.0e9 / n_planes.max(1) as f64);
         }
-        let given = answers(search.as_mut(), set, plan.n_checked);
-        let found = compare(contender.name, contender.agreement, n_planes, set, [&truth, &given]);
-        disagreements.extend(found.filter(|found| 0 < found.n_different));
     }
+    Ok((built, Group { question: BUILD, n_planes, touches: None, series }))
 }
 
-fn group(plan: &Plan, n_planes: usize, built: &mut [Built], set: &QuerySet) -> Group {
-    let hits = built.first_mut().map_or(0, |(_, reference)| {
-        answers(reference.as_mut(), set, plan.n_checked).into_iter().flatten().count()
-    });
+/// All in turn on the same queries.
+fn time_all(plan: &Plan, built: &mut [Built], set: &QuerySet) -> Vec<Series> {
     let mut runners: Vec<Runner> = built
         .iter_mut()
         .map(|(contender, search)| Runner {
@@ -143,27 +163,5 @@ fn group(plan: &Plan, n_planes: usize, built: &mut [Built], set: &QuerySet) -> G
             run: in_turn(search.as_mut(), &set.queries),
         })
         .collect();
-    let series = time(&mut runners, plan.n_rounds, plan.batch);
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let touches = hits as f64 / plan.n_checked.min(set.queries.len()).max(1) as f64;
-    Group { question: set.name, n_planes, touches: Some(touches), series }
-}
-
-/// Asks query after query, from the first again after the last.
-fn in_turn<'a>(
-    search: &'a mut dyn Search,
-    queries: &'a [super::case::Query],
-) -> Box<dyn FnMut(usize) -> f64 + 'a> {
-    let mut next = 0;
-    Box::new(move |n| {
-        let mut sum = 0.0;
-        let mut left = n;
-        while 0 < left {
-            let end = queries.len().min(next + left);
-            sum += search.answer_all(&queries[next..end]);
-            left -= end - next;
-            next = if end == queries.len() { 0 } else { end };
-        }
-        sum
-    })
+    time(&mut runners, plan.n_rounds, plan.batch)
 }

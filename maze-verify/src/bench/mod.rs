@@ -8,6 +8,7 @@
 
 pub mod agreement;
 pub mod case;
+mod chart;
 mod figures;
 pub mod machine;
 mod measure;
@@ -16,10 +17,10 @@ pub mod search;
 mod table;
 pub mod tick;
 
-pub use agreement::{Agreement, Disagreement};
+pub use agreement::{Agreement, Comparison};
 pub use case::{Case, Query, QuerySet};
 pub use figures::{Figures, Group, REFERENCE};
 pub use machine::Machine;
-pub use measure::{BenchError, Plan, measure};
+pub use measure::{BenchError, Plan, measure, n_steps};
 pub use paired::{Runner, Series};
 pub use search::{Contender, Search};

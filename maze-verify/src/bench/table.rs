@@ -1,5 +1,6 @@
 //! The table on the terminal.
 
+use super::agreement::{Agreement, Comparison};
 use super::figures::{Figures, Group, Spread, distinct};
 use crate::report::number::plain;
 use std::fmt::Write;
@@ -18,7 +19,12 @@ impl Figures {
         for question in self.questions() {
             self.block(question, &mut text);
         }
-        self.disagreement_block(&mut text);
+        let mut rest = &self.comparisons[..];
+        while let Some(first) = rest.first() {
+            let (block, others) = rest.split_at(rest.partition_point(|found| found.limit == first.limit));
+            agreement_block(block, first.limit, &mut text);
+            rest = others;
+        }
         text
     }
 
@@ -41,28 +47,62 @@ impl Figures {
             line(name, &|group| shown(group.ratio(name)));
         }
     }
+}
 
-    fn disagreement_block(&self, text: &mut String) {
-        if self.disagreements.is_empty() {
-            let _ = writeln!(text, "\nAll answers are the same to the bit.");
-            return;
-        }
-        let _ = writeln!(text, "\nAnswers that differ from those of the first contender");
-        for found in &self.disagreements {
-            let _ = writeln!(
-                text,
-                "  {} {:<NAME$}{:<14}{:>9} planes: of {} answers {} differ, {} by more than {} units (worst {}), {} missed",
-                if found.holds { "allowed" } else { "WRONG  " },
-                found.contender,
-                found.queries,
-                found.n_planes,
-                found.n_asked,
-                found.n_different,
-                found.n_apart,
-                found.limit,
-                plain(found.worst),
-                found.n_missed,
-            );
+/// A line a contender, a column a kind of query: over all sizes together, what is apart by more than the same limit (units).
+fn agreement_block(comparisons: &[Comparison], limit: f64, text: &mut String) {
+    let queries = distinct(comparisons.iter().map(|found| found.queries));
+    let contenders = distinct(comparisons.iter().map(|found| found.contender));
+    let _ = writeln!(
+        text,
+        "\nAnswers beside those of the first contender, all sizes together: more than {limit} units off, missed or \
+         touched alone, worst (units)"
+    );
+    let heads: Vec<String> = queries.iter().map(|queries| format!("{queries:>CELL$}")).collect();
+    let _ = writeln!(text, "  {:<NAME$}{}", "", heads.concat());
+    for name in contenders {
+        let of = |queries: &str| {
+            let all = comparisons.iter().filter(|found| found.contender == name);
+            format!("{:>CELL$}", told(&all.filter(|found| found.queries == queries).collect::<Vec<_>>()))
+        };
+        let cells: Vec<String> = queries.iter().map(|queries| of(queries)).collect();
+        let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
+    }
+    for found in comparisons.iter().filter(|found| !found.holds) {
+        let _ = writeln!(
+            text,
+            "WRONG: {}, {}, {} planes: of {} answers {} differ, {} by more than {limit} units (worst {}), {} missed",
+            found.contender,
+            found.queries,
+            found.n_planes,
+            found.n_asked,
+            found.n_different,
+            found.n_apart,
+            plain(found.worst),
+            found.n_missed,
+        );
+    }
+}
+
+/// What is off in several comparisons together.
+fn told(found: &[&Comparison]) -> String {
+    match found.first().map(|found| found.agreement) {
+        None => String::new(),
+        Some(Agreement::OtherQuestion(_)) => "other question".to_owned(),
+        Some(_) if found.iter().all(|found| found.n_different == 0) => "the same bits".to_owned(),
+        Some(_) => {
+            #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+            let part = |count: fn(&Comparison) -> usize| {
+                let sum: usize = found.iter().map(|found| count(found)).sum();
+                100.0 * sum as f64 / found.iter().map(|found| found.n_asked).sum::<usize>() as f64
+            };
+            let worst = found.iter().map(|found| found.worst).fold(0.0, f64::max);
+            format!(
+                "{:.2} % {:.3} % {}",
+                part(|found| found.n_apart),
+                part(|found| found.n_missed),
+                plain(worst)
+            )
         }
     }
 }

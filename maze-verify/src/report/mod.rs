@@ -3,7 +3,7 @@
 mod drawing;
 mod html;
 pub(crate) mod number;
-mod plot;
+pub(crate) mod plot;
 mod relaxed;
 mod summary;
 mod table;

@@ -4,8 +4,8 @@ use super::number::plain;
 use std::fmt::Write;
 
 /// Size of a plot (SVG units, pixels at full width).
-const WIDTH: f64 = 360.0;
-const HEIGHT: f64 = 230.0;
+pub(crate) const WIDTH: f64 = 360.0;
+pub(crate) const HEIGHT: f64 = 230.0;
 /// Room for labels: left, right, top, bottom.
 const MARGIN: [f64; 4] = [52.0, 12.0, 26.0, 38.0];
 
@@ -14,7 +14,7 @@ const LOG_FLOOR: f64 = 1.0e-16;
 
 /// How an axis runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Scale {
+pub(crate) enum Scale {
     /// From 0 or the least value.
     Linear,
     /// Powers of ten; what is not above 0 lies on the lower edge.
@@ -22,26 +22,26 @@ pub(super) enum Scale {
 }
 
 /// One line.
-pub(super) struct Line {
+pub(crate) struct Line {
     /// Style class, as `e-continuous`.
-    pub(super) class: String,
+    pub(crate) class: String,
     /// For a tooltip.
-    pub(super) name: String,
+    pub(crate) name: String,
     /// x, y.
-    pub(super) points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
     /// Whether each point gets a dot.
-    pub(super) dots: bool,
+    pub(crate) dots: bool,
 }
 
 /// A plot.
-pub(super) struct Plot {
-    pub(super) title: String,
-    pub(super) x_label: String,
-    pub(super) x_scale: Scale,
-    pub(super) y_scale: Scale,
+pub(crate) struct Plot {
+    pub(crate) title: String,
+    pub(crate) x_label: String,
+    pub(crate) x_scale: Scale,
+    pub(crate) y_scale: Scale,
     /// Where ticks of the x axis stand; empty: round numbers.
-    pub(super) x_ticks: Vec<(f64, String)>,
-    pub(super) lines: Vec<Line>,
+    pub(crate) x_ticks: Vec<(f64, String)>,
+    pub(crate) lines: Vec<Line>,
 }
 
 /// Values to places along an axis.
@@ -132,13 +132,22 @@ fn trimmed(value: f64) -> String {
 }
 
 /// Text that is safe between tags and in attributes.
-pub(super) fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 impl Plot {
     /// The plot as an SVG element.
     pub(super) fn svg(&self) -> String {
+        self.element("")
+    }
+
+    /// The plot as a part of a larger picture, [`WIDTH`] by [`HEIGHT`].
+    pub(crate) fn svg_at(&self, x: f64, y: f64) -> String {
+        self.element(&format!(" x=\"{x}\" y=\"{y}\" width=\"{WIDTH}\" height=\"{HEIGHT}\""))
+    }
+
+    fn element(&self, place: &str) -> String {
         let [left, right, top, bottom] = MARGIN;
         let values =
             |axis: usize| self.lines.iter().flat_map(move |line| line.points.iter().map(move |p| p[axis]));
@@ -148,7 +157,7 @@ impl Plot {
         }
         let y = Axis::new(self.y_scale, values(1), HEIGHT - bottom, top);
         let mut svg = format!(
-            "<svg class=\"plot\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\">\
+            "<svg class=\"plot\"{place} viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{title}\">\
              <text class=\"title\" x=\"{left}\" y=\"14\">{title}</text>",
             title = escaped(&self.title)
         );

@@ -22,6 +22,22 @@ pub trait Search {
     }
 }
 
+/// Asks query after query, from the first again after the last: as many at each call as it is told to.
+pub fn in_turn<'a>(search: &'a mut dyn Search, queries: &'a [Query]) -> Box<dyn FnMut(usize) -> f64 + 'a> {
+    let mut next = 0;
+    Box::new(move |n| {
+        let mut sum = 0.0;
+        let mut left = if queries.is_empty() { 0 } else { n };
+        while 0 < left {
+            let end = queries.len().min(next + left);
+            sum += search.answer_all(&queries[next..end]);
+            left -= end - next;
+            next = if end == queries.len() { 0 } else { end };
+        }
+        sum
+    })
+}
+
 /// Makes a contender's structure from a maze.
 pub type Build = fn(&Case) -> Result<Box<dyn Search>, BenchError>;
 

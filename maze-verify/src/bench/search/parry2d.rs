@@ -27,12 +27,12 @@ impl<S: Shape> Search for Walls<S> {
 
 /// A cuboid a wall under one tree.
 pub(super) fn compound(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let cuboid = |wall: maze_core::Bounds| {
+    let cuboid = |wall: &maze_core::Bounds| {
         let (half, middle) = (wall.size() / 2.0, (wall.low + wall.high) / 2.0);
         let at = Pose::translation(to_f32(middle.x), to_f32(middle.y));
         (at, SharedShape::cuboid(to_f32(half.x), to_f32(half.y)))
     };
-    let shape = Compound::new(case.rectangles().into_iter().map(cuboid).collect());
+    let shape = Compound::new(case.rectangles().iter().map(cuboid).collect());
     Ok(Box::new(Walls { shape, ball: Ball::new(to_f32(RADIUS)) }))
 }
 

@@ -28,11 +28,11 @@ impl<S: Shape> Search for Walls<S> {
 
 /// A cuboid a wall under one tree.
 pub(super) fn compound(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let cuboid = |wall: Bounds| {
+    let cuboid = |wall: &Bounds| {
         let half = wall.size() / 2.0;
         (middle(wall), SharedShape::cuboid(to_f32(half.x), to_f32(half.y), HALF_HEIGHT))
     };
-    let shape = Compound::new(case.rectangles().into_iter().map(cuboid).collect());
+    let shape = Compound::new(case.rectangles().iter().map(cuboid).collect());
     Ok(Box::new(Walls { shape, ball: ball() }))
 }
 
@@ -127,7 +127,7 @@ fn cast(query: &Query) -> (Pose, Vector, ShapeCastOptions) {
     (at, in_plane(query.mean_velocity()), options)
 }
 
-fn middle(wall: Bounds) -> Pose {
+fn middle(wall: &Bounds) -> Pose {
     Pose::from_translation(in_plane((wall.low + wall.high) / 2.0))
 }
 

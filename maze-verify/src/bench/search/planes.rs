@@ -20,20 +20,24 @@ impl<F: Fn(&SortedPlanes, &Path, f64, f64, Option<Vector2<f64>>) -> Option<Impac
     }
 }
 
+fn planes(case: &Case) -> Result<Arc<SortedPlanes>, BenchError> {
+    SortedPlanes::new(case.planes_in()).map(Arc::new).map_err(BenchError::set_up)
+}
+
 /// The search that the game uses.
 pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: Arc::clone(case.planes()), find: impact::first }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: impact::first }))
 }
 
 /// The same by bisection alone.
 pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let planes = Arc::new(SortedPlanes::clone(case.planes()).without_directories());
-    Ok(Box::new(Planes { planes, find: impact::first }))
+    let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_directories();
+    Ok(Box::new(Planes { planes: Arc::new(planes), find: impact::first }))
 }
 
 /// Every plane of every group.
 pub(super) fn scan(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: Arc::clone(case.planes()), find: impact::first_scan }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: impact::first_scan }))
 }
 
 /// What the report's engine asks: an overlap at the end of a step, or after every 0.02 units of one longer than the radius.
@@ -62,5 +66,5 @@ impl Search for Published {
 
 /// The search of the report's engine.
 pub(super) fn published(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Published(Arc::clone(case.planes()))))
+    Ok(Box::new(Published(planes(case)?)))
 }

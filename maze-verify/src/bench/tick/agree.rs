@@ -1,6 +1,6 @@
 //! Whether the balls of all contenders go the same way, for as long as that can be said.
 
-use super::super::agreement::{Agreement, Disagreement};
+use super::super::agreement::{Agreement, Comparison};
 use super::super::case::turning_pulls;
 use super::{Built, Course, Mover};
 use maze_core::Ball;
@@ -33,38 +33,37 @@ pub const REPORT: Agreement = Agreement::Mostly {
 };
 
 /// Compares all with the first, and leaves the balls somewhere.
-pub(super) fn compare_all(course: &Course, built: &mut [Built]) -> Vec<Disagreement> {
+pub(super) fn compare_all(course: &Course, built: &mut [Built]) -> Vec<Comparison> {
     let mut found = Vec::new();
     let Some(((_, reference), others)) = built.split_first_mut() else { return found };
     for (contender, mover) in others {
         let pair: [&mut dyn Mover; 2] = [reference.as_mut(), mover.as_mut()];
         let compared = match contender.agreement {
-            Agreement::OtherQuestion(_) => continue,
+            Agreement::OtherQuestion(_) => nothing(course),
             Agreement::Exact => exact(course, pair),
             Agreement::Mostly { part, .. } => first_bounces(course, pair, part),
         };
-        found.push(Disagreement { contender: contender.name, ..compared });
+        found.push(Comparison { contender: contender.name, agreement: contender.agreement, ..compared });
     }
-    found.retain(|found| 0 < found.n_different);
     found
 }
 
 /// One ball on and on.
-fn exact(course: &Course, [truth, given]: [&mut dyn Mover; 2]) -> Disagreement {
+fn exact(course: &Course, [truth, given]: [&mut dyn Mover; 2]) -> Comparison {
     let mut found = nothing(course);
     truth.place(course.starts[0]);
     given.place(course.starts[0]);
     for pull in turning_pulls().into_iter().cycle().take(N_TICKS_EXACT) {
         note(&mut found, tick_both(truth, given, pull * STRONG));
     }
-    Disagreement { holds: found.n_different == 0, ..found }
+    Comparison { holds: found.n_different == 0, ..found }
 }
 
 /// Strong enough to throw the ball about (a pull of 1 unit/s² times this).
 const STRONG: f64 = 5.0;
 
 /// Many balls, each from rest to its first bounce.
-fn first_bounces(course: &Course, [truth, given]: [&mut dyn Mover; 2], part: f64) -> Disagreement {
+fn first_bounces(course: &Course, [truth, given]: [&mut dyn Mover; 2], part: f64) -> Comparison {
     let mut found = nothing(course);
     let pulls = turning_pulls();
     for (n, start) in course.case.scattered(N_BALLS).into_iter().map(Ball::at).enumerate() {
@@ -77,7 +76,7 @@ fn first_bounces(course: &Course, [truth, given]: [&mut dyn Mover; 2], part: f64
     }
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     let part_apart = found.n_apart as f64 / found.n_asked as f64;
-    Disagreement { holds: part_apart <= part, ..found }
+    Comparison { holds: part_apart <= part, ..found }
 }
 
 fn tick_both(truth: &mut dyn Mover, given: &mut dyn Mover, pull: Vector2<f64>) -> [Ball; 2] {
@@ -86,7 +85,7 @@ fn tick_both(truth: &mut dyn Mover, given: &mut dyn Mover, pull: Vector2<f64>) -
     [truth.ball(), given.ball()]
 }
 
-fn note(found: &mut Disagreement, [truth, given]: [Ball; 2]) {
+fn note(found: &mut Comparison, [truth, given]: [Ball; 2]) {
     let apart = (truth.position - given.position).norm();
     found.n_asked += 1;
     found.n_different += usize::from(truth != given);
@@ -96,10 +95,11 @@ fn note(found: &mut Disagreement, [truth, given]: [Ball; 2]) {
     found.worst = found.worst.max(apart);
 }
 
-fn nothing(course: &Course) -> Disagreement {
-    Disagreement {
+fn nothing(course: &Course) -> Comparison {
+    Comparison {
         contender: "",
-        queries: "tick",
+        agreement: Agreement::Exact,
+        queries: super::ROLLING_BALL,
         n_planes: course.n_planes(),
         n_asked: 0,
         limit: APART,

@@ -1,6 +1,6 @@
 //! Many balls in one maze, none of which knows of another.
 
-use super::super::agreement::Disagreement;
+use super::super::agreement::Comparison;
 use super::super::case::{Case, TICK_S, spec, turning_pulls};
 use super::super::measure::BenchError;
 use super::super::paired::Runner;
@@ -30,12 +30,12 @@ pub fn balls(case: &Case) -> Result<Question, BenchError> {
     let report = |ball: &Ball| Published::new(Arc::clone(planes), spec, *ball);
     let entrants = vec![
         on_threads("continuous", 1, all(&starts, exact)?),
-        on_threads("continuous, 2 threads", 2, all(&starts, exact)?),
+        on_threads("continuous on 2 threads", 2, all(&starts, exact)?),
         on_threads("published", 1, all(&starts, report)?),
         in_one_world(case, &starts)?,
     ];
     let (name, n_planes) = ("10^5 balls", planes.len());
-    Ok(Question { name, n_planes, hits_a_tick: None, disagreements: Vec::<Disagreement>::new(), entrants })
+    Ok(Question { name, n_planes, hits_a_tick: None, comparisons: Vec::<Comparison>::new(), entrants })
 }
 
 fn all<E>(starts: &[Ball], make: impl Fn(&Ball) -> Result<E, OutOfRange>) -> Result<Vec<E>, BenchError> {
@@ -95,6 +95,6 @@ fn in_one_world(case: &Case, starts: &[Ball]) -> Result<Entrant, BenchError> {
         n_done += n;
         world.ball().position.x
     };
-    let runner = Runner { name: "rapier3d, 10^4 in one world", run: Box::new(run) };
+    let runner = Runner { name: "rapier3d world of 10^4", run: Box::new(run) };
     Ok(Entrant { runner, n_balls: N_IN_WORLD })
 }

@@ -10,7 +10,7 @@ mod movers;
 pub use balls::balls;
 pub use movers::Mover;
 
-use super::agreement::{Agreement, Disagreement};
+use super::agreement::{Agreement, Comparison};
 use super::case::{Case, TICK_S, spec, turning_pulls};
 use super::figures::{Figures, Group};
 use super::measure::{BenchError, Plan};
@@ -79,7 +79,7 @@ pub const REFERENCE: &str = "continuous";
 const CONTINUOUS: Contender =
     contender(REFERENCE, "maze-core: the exact engine, the game's default", Agreement::Exact, exact);
 const BISECTION: Contender = contender(
-    "continuous, bisection alone",
+    "continuous by bisection",
     "the same without directories",
     Agreement::Exact,
     without_directories,
@@ -87,18 +87,22 @@ const BISECTION: Contender = contender(
 const PUBLISHED: Contender =
     contender("published", "maze-core: the report's engine", agree::REPORT, published);
 const COMPOUND: Contender = contender(
-    "rapier3d, one compound",
-    "PhysicsWorld::step, the walls as one compound collider: the fair set-up for a large maze",
+    "rapier3d compound",
+    "PhysicsWorld::step, all walls one compound collider: the fair set-up for a large maze. With its ccd a fast ball goes as \
+     far as the next wall in a step, not through the whole tick",
     agree::FIRST_ORDER,
     |course| rapier(course, Walls::Compound, true),
 );
 const BROAD_PHASE: Contender = contender(
-    "rapier3d broad phase alone",
+    "rapier3d broad phase",
     "BroadPhaseBvh::update with the ball's collider moved along its way, a collider a wall",
     Agreement::OtherQuestion("pairs of boxes that meet; moves nothing"),
     boxes,
 )
 .separate();
+
+/// The name of the question about them.
+const ROLLING_BALL: &str = "rolling tick";
 
 /// All that roll a ball; the first is what the others are compared with.
 pub const ROLLING: [Contender; 8] = [
@@ -106,14 +110,14 @@ pub const ROLLING: [Contender; 8] = [
     BISECTION,
     PUBLISHED,
     COMPOUND,
-    contender("rapier3d, one compound, no ccd", "with max_ccd_substeps = 0", agree::FIRST_ORDER, |course| {
+    contender("rapier3d compound no ccd", "with max_ccd_substeps = 0", agree::FIRST_ORDER, |course| {
         rapier(course, Walls::Compound, false)
     }),
-    contender("rapier3d, separate colliders", "a collider a wall", agree::FIRST_ORDER, |course| {
+    contender("rapier3d colliders", "a collider a wall", agree::FIRST_ORDER, |course| {
         rapier(course, Walls::Cuboids, true)
     })
     .separate(),
-    contender("rapier3d, separate, no ccd", "with max_ccd_substeps = 0", agree::FIRST_ORDER, |course| {
+    contender("rapier3d colliders no ccd", "with max_ccd_substeps = 0", agree::FIRST_ORDER, |course| {
         rapier(course, Walls::Cuboids, false)
     })
     .separate(),
@@ -135,7 +139,7 @@ pub struct Question {
     /// Hits in a tick, on average.
     pub hits_a_tick: Option<f64>,
     /// How the answers compare.
-    pub disagreements: Vec<Disagreement>,
+    pub comparisons: Vec<Comparison>,
     /// The contenders.
     pub entrants: Vec<Entrant>,
 }
@@ -217,7 +221,7 @@ impl<'a> Course<'a> {
             name,
             n_planes: self.n_planes(),
             hits_a_tick: Some(self.hits_a_tick(pulls)?),
-            disagreements: Vec::new(),
+            comparisons: Vec::new(),
             entrants: built
                 .into_iter()
                 .map(|(contender, mover)| entrant(contender.name, mover, pulls))
@@ -257,11 +261,11 @@ fn in_turn(mut mover: Box<dyn Mover>, pulls: Vec<Vector2<f64>>) -> Box<dyn FnMut
 /// An engine that refuses the maze or the ball.
 pub fn rolling(course: &Course) -> Result<Question, BenchError> {
     let mut built = course.build(&ROLLING)?;
-    let disagreements = agree::compare_all(course, &mut built);
+    let comparisons = agree::compare_all(course, &mut built);
     for (_, mover) in &mut built {
         mover.place(course.starts[0]);
     }
-    Ok(Question { disagreements, ..course.ask("tick, rolling ball", built, &turning_pulls())? })
+    Ok(Question { comparisons, ..course.ask(ROLLING_BALL, built, &turning_pulls())? })
 }
 
 /// Balls all over the maze, ticked in turn: each finds the caches cold.
@@ -272,7 +276,7 @@ pub fn anywhere(course: Course) -> Result<Question, BenchError> {
     let starts = course.case.scattered(N_SCATTERED).into_iter().map(Ball::at).collect();
     let course = Course { starts, ..course };
     let built = course.build(&ANYWHERE)?;
-    Ok(Question { hits_a_tick: None, ..course.ask("tick, balls anywhere", built, &turning_pulls())? })
+    Ok(Question { hits_a_tick: None, ..course.ask("ticks anywhere", built, &turning_pulls())? })
 }
 
 /// A ball that bounces without loss and without pull.
@@ -286,14 +290,13 @@ pub fn fast(case: &Case, (speed, name): (f64, &'static str)) -> Result<Question,
     course.ask(name, course.build(&FAST)?, &[Vector2::zeros()])
 }
 
-/// Names of the mazes in [`growth`], by their number of planes.
-const SIZES: [(&str, usize); 6] = [
-    ("about 10^2 planes", 300),
-    ("about 10^3 planes", 3_000),
-    ("about 10^4 planes", 30_000),
-    ("about 10^5 planes", 300_000),
-    ("about 10^6 planes", 3_000_000),
-    ("about 10^7 planes", usize::MAX),
+/// Names of the mazes in [`growth`], by their number of planes; smaller ones are left out.
+const SIZES: [(&str, std::ops::Range<usize>); 5] = [
+    ("10^3 planes", 500..5_000),
+    ("10^4 planes", 5_000..50_000),
+    ("10^5 planes", 50_000..500_000),
+    ("10^6 planes", 500_000..2_000_000),
+    ("10^7 planes", 5_000_000..50_000_000),
 ];
 
 /// The exact engine's rolling ball in small and large mazes in turn, so that one noise disturbs all alike. The mazes come
@@ -305,12 +308,14 @@ pub fn growth(mazes: Vec<(Arc<SortedPlanes>, Vector2<f64>)>) -> Result<Question,
     let n_planes = mazes.iter().map(|(planes, _)| planes.len()).max().unwrap_or(0);
     let mut entrants = Vec::new();
     for (planes, middle) in mazes {
-        let name = SIZES.into_iter().find(|(_, most)| planes.len() <= *most).map_or("", |(name, _)| name);
+        let Some((name, _)) = SIZES.into_iter().find(|(_, sizes)| sizes.contains(&planes.len())) else {
+            continue;
+        };
         let engine = Continuous::new(planes, spec(), Ball::at(middle), TICK_S).map_err(BenchError::set_up)?;
         entrants.push(entrant(name, movers::of_engine(engine), &turning_pulls()));
     }
-    let name = "tick, as the maze grows";
-    Ok(Question { name, n_planes, hits_a_tick: None, disagreements: Vec::new(), entrants })
+    let name = "rolling tick as mazes grow";
+    Ok(Question { name, n_planes, hits_a_tick: None, comparisons: Vec::new(), entrants })
 }
 
 /// Cells and tiles of the maze that a fast ball bounces in: about 10⁴ planes.
@@ -321,37 +326,46 @@ const BALLS_SIZE: [usize; 2] = [27, 10];
 
 /// How often [`measure`] tells what comes next.
 pub fn n_steps(plan: &Plan) -> usize {
-    2 * plan.tick_sizes.len() + 1 + SPEEDS.len() + 1
+    let has = |size| usize::from(plan.tick_sizes.contains(&size));
+    2 * plan.tick_sizes.len() + 1 + SPEEDS.len() * has(FAST_SIZE) + has(BALLS_SIZE)
 }
 
-/// All questions about ticks.
+/// Measures all questions about ticks; fast balls and many balls where the plan has their mazes. `on_step` hears what comes
+/// next.
 ///
 /// # Errors
 /// As [`rolling`].
 pub fn measure(plan: &Plan, figures: &mut Figures, on_step: &dyn Fn(&str)) -> Result<(), BenchError> {
     let mut add = |mut question: Question| {
-        figures.disagreements.append(&mut question.disagreements);
+        figures.comparisons.append(&mut question.comparisons);
         figures.groups.push(question.time(plan.n_rounds, plan.batch));
     };
     let mut mazes = Vec::new();
     for [tile, n_tiles] in &plan.tick_sizes {
         let case = Case::new(*tile, *n_tiles)?;
         let n_planes = case.planes().len();
-        on_step(&format!("rolling ball, {n_planes} planes"));
+        on_step(&format!("tick, {n_planes} planes"));
         let course = Course::middle(&case);
         add(rolling(&course)?);
         on_step(&format!("balls anywhere, {n_planes} planes"));
         add(anywhere(course)?);
         mazes.push((Arc::clone(case.planes()), case.middle()));
     }
-    on_step("the same ball in small and large mazes");
-    add(growth(mazes)?);
-    let case = Case::new(FAST_SIZE[0], FAST_SIZE[1])?;
-    for speed in SPEEDS {
-        on_step(speed.1);
-        add(fast(&case, speed)?);
+    on_step("small and large mazes in turn");
+    let growth = growth(mazes)?;
+    if !growth.entrants.is_empty() {
+        add(growth);
     }
-    on_step("many balls");
-    add(balls(&Case::new(BALLS_SIZE[0], BALLS_SIZE[1])?)?);
+    if plan.tick_sizes.contains(&FAST_SIZE) {
+        let case = Case::new(FAST_SIZE[0], FAST_SIZE[1])?;
+        for speed in SPEEDS {
+            on_step(speed.1);
+            add(fast(&case, speed)?);
+        }
+    }
+    if plan.tick_sizes.contains(&BALLS_SIZE) {
+        on_step("many balls");
+        add(balls(&Case::new(BALLS_SIZE[0], BALLS_SIZE[1])?)?);
+    }
     Ok(())
 }
