@@ -7,6 +7,7 @@ use crate::plane::{Facing, Plane};
 use crate::roots::{bracketed_root, falls_through_zero, quadratic_roots};
 use crate::sorted_planes::{Face, SortedPlanes, WIDENED};
 use nalgebra::Vector2;
+use std::ops::Range;
 
 /// At the start a corner is touched only when approached faster than this part of the speed: what is slower is the
 /// rounding of a ball that has just left it or slides by.
@@ -60,12 +61,6 @@ impl Path {
         self.velocity + self.acceleration * time_s
     }
 
-    /// How far at most the path leaves the line of its initial velocity until a time (units).
-    fn straying(&self, until_s: f64) -> f64 {
-        let pull = self.acceleration;
-        (pull.x.abs() + pull.y.abs()) * (until_s * until_s / 2.0)
-    }
-
     /// Least and greatest coordinate along one axis from the start to a time.
     fn range_until(&self, axis: usize, until_s: f64) -> [f64; 2] {
         let (from, speed, pull) = (self.position[axis], self.velocity[axis], self.acceleration[axis]);
@@ -77,12 +72,6 @@ impl Path {
         // The turn lies v² / 2a from the start.
         let turn = from - speed * speed / (2.0 * pull);
         [if turn < low { turn } else { low }, if high < turn { turn } else { high }]
-    }
-
-    /// Least and greatest coordinate along one axis between two times.
-    fn range(&self, axis: usize, [from_s, to_s]: [f64; 2]) -> [f64; 2] {
-        let rest = Self { position: self.at(from_s), velocity: self.velocity_at(from_s), ..*self };
-        rest.range_until(axis, to_s - from_s)
     }
 }
 
@@ -165,8 +154,6 @@ struct First<'a> {
     /// How far from the centre what is touched can be (units).
     reach: f64,
     horizon_s: f64,
-    /// [`Path::straying`] within the horizon.
-    straying: f64,
     until_s: f64,
     /// Least and greatest coordinate of the centre along both axes until then.
     ranges: [[f64; 2]; 2],
@@ -176,27 +163,64 @@ struct First<'a> {
 impl<'a> First<'a> {
     fn new(path: &'a Path, radius: f64, until_s: f64) -> Self {
         let ranges = [path.range_until(0, until_s), path.range_until(1, until_s)];
-        let (reach, straying) = (radius * WIDENED, path.straying(until_s));
-        Self { path, radius, reach, horizon_s: until_s, straying, until_s, ranges, impact: None }
+        Self { path, radius, reach: radius * WIDENED, horizon_s: until_s, until_s, ranges, impact: None }
+    }
+
+    /// Where along an axis the circle is until the best impact so far.
+    fn reached(&self, axis: usize) -> [f64; 2] {
+        let [low, high] = self.ranges[axis];
+        [low - self.reach, high + self.reach]
+    }
+
+    /// The groups across one axis that oppose the motion.
+    fn search_axis(
+        &mut self,
+        planes: &SortedPlanes,
+        axis: usize,
+        ignored: Option<Vector2<f64>>,
+        watch: &mut impl FnMut(Visit),
+    ) {
+        let start = self.path.velocity[axis];
+        let end = start + self.path.acceleration[axis] * self.until_s;
+        // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
+        let all = planes.has_free_ends();
+        let (falls, rises) = (all || start < 0.0 || end < 0.0, all || 0.0 < start || 0.0 < end);
+        if !falls && !rises {
+            return;
+        }
+        let [plus, minus] = Facing::across(axis);
+        let offsets = self.reached(axis);
+        let ranks = planes.ranks(axis, offsets);
+        if falls {
+            watch(Visit::Group { facing: plus, offsets });
+            let rows = planes.rows_at(plus, &ranks);
+            if !rows.is_empty() {
+                self.search_rows(planes, plus, rows, ignored, watch);
+            }
+        }
+        if rises {
+            watch(Visit::Group { facing: minus, offsets });
+            let rows = planes.rows_at(minus, &ranks);
+            if !rows.is_empty() {
+                self.search_rows(planes, minus, rows, ignored, watch);
+            }
+        }
     }
 
     /// Row by row in the direction of motion, and in each row the planes that the circle passes while it is in reach.
-    fn search_group(
+    fn search_rows(
         &mut self,
         planes: &SortedPlanes,
         facing: Facing,
+        rows: Range<usize>,
         ignored: Option<Vector2<f64>>,
         watch: &mut impl FnMut(Visit),
     ) {
         let axis = facing.axis();
-        let reach = self.reach;
-        let [low, high] = self.ranges[axis];
-        let offsets = [low - reach, high + reach];
-        watch(Visit::Group { facing, offsets });
-        for row in planes.rows_within(facing, offsets) {
+        for row in planes.rows(facing, rows) {
             // A touch found meanwhile shortens the time, and with it the way.
-            let [low, high] = self.ranges[axis];
-            let (is_above, is_below) = (high < row.offset() - reach, row.offset() + reach < low);
+            let [low, high] = self.reached(axis);
+            let (is_above, is_below) = (high < row.offset(), row.offset() < low);
             if is_above || is_below {
                 if is_above == (facing.sign() < 0.0) {
                     return; // and so are all that follow
@@ -213,43 +237,49 @@ impl<'a> First<'a> {
     }
 
     fn offer(&mut self, candidate: &Face, ignored: Option<Vector2<f64>>) {
-        if let Some(time_s) = face(self.path, self.radius, &candidate.plane) {
-            self.keep(Impact { time_s, touched: Touched::Face(candidate.plane) });
+        let Face { plane, is_corner: [starts, ends] } = candidate;
+        if let Some(time_s) = face(self.path, self.radius, plane) {
+            self.keep(Impact { time_s, touched: Touched::Face(*plane) });
         }
-        let Face { plane, is_corner } = candidate;
-        for (along, is_corner) in [(plane.start, is_corner[0]), (plane.end, is_corner[1])] {
-            let point = plane.facing.point(plane.offset, along);
-            let is_known = self.impact.is_some_and(|known| known.touched == Touched::Corner(point));
-            if !is_corner
-                || self.is_beside(point)
-                || self.is_out_of_time(point)
-                || is_known
-                || ignored == Some(point)
-            {
-                continue;
-            }
-            // The root is sought within the whole time, not within what is left of it: its bits must not depend on what
-            // was found before.
-            if let Some(time_s) = corner(self.path, self.radius, point, self.horizon_s) {
-                self.keep(Impact { time_s, touched: Touched::Corner(point) });
-            }
+        if *starts {
+            self.offer_corner(plane.facing.point(plane.offset, plane.start), ignored);
+        }
+        if *ends {
+            self.offer_corner(plane.facing.point(plane.offset, plane.end), ignored);
+        }
+    }
+
+    fn offer_corner(&mut self, point: Vector2<f64>, ignored: Option<Vector2<f64>>) {
+        let is_known = |known: Impact| known.touched == Touched::Corner(point);
+        if self.is_beside(point)
+            || self.is_out_of_time(point)
+            || ignored == Some(point)
+            || self.impact.is_some_and(is_known)
+        {
+            return;
+        }
+        // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
+        // found before.
+        if let Some(time_s) = corner(self.path, self.radius, point, self.horizon_s) {
+            self.keep(Impact { time_s, touched: Touched::Corner(point) });
         }
     }
 
     /// Whether a point stays out of reach until the best impact so far: the usual case, told without a root.
     fn is_beside(&self, point: Vector2<f64>) -> bool {
-        let reach = self.reach;
         let is_off = |axis: usize| {
-            let [low, high] = self.ranges[axis];
-            point[axis] + reach < low || high < point[axis] - reach
+            let [low, high] = self.reached(axis);
+            point[axis] < low || high < point[axis]
         };
         if is_off(0) || is_off(1) {
             return true;
         }
-        // Beside the line of the initial velocity, from which the path strays little.
-        let (velocity, to_point) = (self.path.velocity, point - self.path.position);
+        // Beside the line of the initial velocity, from which the acceleration leads away by no more than a t² / 2.
+        let Path { position, velocity, acceleration } = self.path;
+        let to_point = point - position;
         let across = velocity.x * to_point.y - velocity.y * to_point.x;
-        let reach = reach + self.straying;
+        let strays = (acceleration.x.abs() + acceleration.y.abs()) * (self.until_s * self.until_s / 2.0);
+        let reach = self.reach + strays;
         reach * reach * velocity.norm_squared() < across * across
     }
 
@@ -278,24 +308,36 @@ impl<'a> First<'a> {
         };
         if is_better {
             self.until_s = impact.time_s;
-            self.ranges = [0, 1].map(|axis| self.path.range_until(axis, impact.time_s));
+            self.ranges = [self.path.range_until(0, self.until_s), self.path.range_until(1, self.until_s)];
             self.impact = Some(impact);
         }
     }
 
     /// Part of the other coordinate's range in which the circle is near a row's offset, widened by its reach.
     ///
-    /// On a short way the whole range will do.
+    /// On a short way the whole range will do, and where one of the coordinates turns.
     fn window(&self, axis: usize, offset: f64) -> [f64; 2] {
-        let reach = self.reach;
-        let [low, high] = self.ranges[1 - axis];
-        let [low, high] = if high - low < reach {
-            [low, high]
-        } else {
-            let near = while_near(self.path, axis, offset, self.radius, self.until_s);
-            self.path.range(1 - axis, near)
+        let Self { path, until_s, reach, .. } = *self;
+        let [low, high] = self.reached(1 - axis);
+        if high - low < 3.0 * reach {
+            return [low, high];
+        }
+        let (start, end) = (path.velocity, path.velocity_at(until_s));
+        if start[axis] * end[axis] <= 0.0 || start[1 - axis] * end[1 - axis] < 0.0 {
+            return [low, high];
+        }
+        // Not before the faster of the two speeds leads there, and not after the slower one leads away.
+        let (start, end) = (start[axis].abs(), end[axis].abs());
+        let (slow, fast) = if start < end { (start, end) } else { (end, start) };
+        let gap = offset - path.position[axis];
+        let gap = if path.velocity[axis] < 0.0 { -gap } else { gap };
+        let (from_s, to_s) = ((gap - reach) / fast, (gap + reach) / slow);
+        let along = |time_s: f64| {
+            let time_s = if time_s < 0.0 { 0.0 } else { time_s };
+            path.at(if time_s < until_s { time_s } else { until_s })[1 - axis]
         };
-        [low - reach, high + reach]
+        let (from, to) = (along(from_s), along(to_s));
+        if from < to { [from - reach, to + reach] } else { [to - reach, from + reach] }
     }
 }
 
@@ -340,19 +382,10 @@ pub(crate) fn search(
     watch: &mut impl FnMut(Visit),
 ) -> Option<Impact> {
     let mut first = First::new(path, radius, until_s);
-    let (start, end) = (path.velocity, path.velocity_at(until_s));
-    // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
-    let all = planes.has_free_ends();
     // What the faster coordinate meets shortens the way for the other one.
-    let axes = if start.x * start.x < start.y * start.y { [1, 0] } else { [0, 1] };
+    let axes = if path.velocity.x.abs() < path.velocity.y.abs() { [1, 0] } else { [0, 1] };
     for axis in axes {
-        let [plus, minus] = Facing::across(axis);
-        if all || start[axis] < 0.0 || end[axis] < 0.0 {
-            first.search_group(planes, plus, ignored, watch);
-        }
-        if all || 0.0 < start[axis] || 0.0 < end[axis] {
-            first.search_group(planes, minus, ignored, watch);
-        }
+        first.search_axis(planes, axis, ignored, watch);
     }
     first.impact
 }
@@ -370,22 +403,4 @@ pub fn first_scan(
         first.offer(&candidate, ignored);
     }
     first.impact
-}
-
-/// A time window that holds every moment at which the coordinate is within `radius` of `offset`, widened for rounding.
-///
-/// Where the motion along the axis turns within the time, the window is all of it.
-fn while_near(path: &Path, axis: usize, offset: f64, radius: f64, until_s: f64) -> [f64; 2] {
-    let (start, end) = (path.velocity[axis], path.velocity_at(until_s)[axis]);
-    if start * end <= 0.0 {
-        return [0.0, until_s];
-    }
-    let sign = if start < 0.0 { 1.0 } else { -1.0 };
-    let gap = (path.position[axis] - offset) * sign;
-    let when = |gap: f64| falls_through_zero(gap, start * sign, path.acceleration[axis] * sign);
-    // The far edge of the band is never reached when the motion ends before it.
-    let reach = radius * WIDENED;
-    let from = if gap <= reach { 0.0 } else { when(gap - reach).unwrap_or(0.0) };
-    let to = when(gap + reach).unwrap_or(until_s);
-    [if from < until_s { from } else { until_s }, if to < until_s { to } else { until_s }]
 }

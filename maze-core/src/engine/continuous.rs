@@ -1,5 +1,6 @@
 //! The exact engine: within a tick the ball moves on a parabola from touch to touch, without substeps or penetration.
 
+use super::clearing::Clearing;
 use super::pivot::{self, Pivot};
 use super::{Engine, Hit, Log, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
@@ -25,6 +26,12 @@ pub const MAX_TICK_S: f64 = 1000.0;
 /// Most walls a ball that starts inside of them is pushed out of, one after the other.
 const MAX_RECOVERIES: u32 = 16;
 
+/// A clearing is looked for when a tick leads less far than this (radii): a faster ball would soon leave it.
+const WORTHWHILE: f64 = 0.25;
+
+/// Flights until a clearing is looked for again where there was none: beside a corner, say.
+const PATIENCE: u32 = 8;
+
 /// What carries the ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Support {
@@ -45,6 +52,10 @@ pub struct Continuous {
     support: Support,
     /// Whether the ball was put here from outside and may lie inside a wall.
     is_placed: bool,
+    /// Where nothing is touched, as last found.
+    clearing: Option<Clearing>,
+    /// Flights to wait for until a clearing is looked for again.
+    n_flights_to_wait: u32,
 }
 
 impl Continuous {
@@ -64,7 +75,9 @@ impl Continuous {
             return Err(OutOfRange { what: "the tick's length", expected });
         }
         let (spec, ball) = (spec.checked()?, ball.checked()?);
-        Ok(Self { planes, spec, tick_s, ball, support: Support::default(), is_placed: true })
+        let support = Support::default();
+        let (clearing, n_flights_to_wait) = (None, 0);
+        Ok(Self { planes, spec, tick_s, ball, support, is_placed: true, clearing, n_flights_to_wait })
     }
 
     fn radius(&self) -> f64 {
@@ -141,9 +154,28 @@ impl Continuous {
             Some(Impact { touched: Touched::Corner(point), .. }) => {
                 self.bounce_off_corner(point, acceleration, log);
             }
-            None => {}
+            None => self.look_around(),
         }
         until_s
+    }
+
+    /// Looks for a clearing after a flight without a touch, when the ball is so slow that one will last.
+    fn look_around(&mut self) {
+        if 0 < self.n_flights_to_wait {
+            self.n_flights_to_wait -= 1;
+        } else if self.ball.velocity.amax() * self.tick_s < WORTHWHILE * self.radius() {
+            self.clearing = Clearing::around(&self.planes, self.ball, self.radius(), &self.support.faces);
+            self.n_flights_to_wait = if self.clearing.is_some() { 0 } else { PATIENCE };
+        }
+    }
+
+    /// The usual tick: the ball as it is afterwards when it stays in the clearing.
+    fn pass_clearing(&self, acceleration: Vector2<f64>) -> Option<Ball> {
+        let is_usual = !self.is_placed && self.support.corner.is_none() && self.spec.resistance == 0.0;
+        let clearing = self.clearing.as_ref().filter(|_| is_usual)?;
+        let [x, y] = &self.support.faces;
+        let is_carried = clearing.is_carried(0) == x.is_some() && clearing.is_carried(1) == y.is_some();
+        is_carried.then(|| clearing.pass(self.ball, acceleration, self.tick_s))?
     }
 
     fn bounce_off_face(&mut self, face: Plane, acceleration: Vector2<f64>, log: &mut Log) {
@@ -280,7 +312,13 @@ fn is_rest(rebound: f64, normal_acceleration: f64) -> bool {
 
 impl Engine for Continuous {
     fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
-        self.tick_observed(acceleration, &mut |_| {})
+        match self.pass_clearing(acceleration * self.spec.rolling) {
+            Some(ball) => {
+                self.ball = ball;
+                Ok(Tick { n_steps: 1, ..Tick::default() })
+            }
+            None => self.tick_observed(acceleration, &mut |_| {}),
+        }
     }
 
     fn tick_observed(

@@ -1,5 +1,6 @@
 //! Engines: what moves the ball through one tick.
 
+mod clearing;
 pub mod continuous;
 mod pivot;
 pub mod published;

@@ -8,7 +8,7 @@ use std::ops::Range;
 /// once where its own numbers stand. That is a bisection which a directory shortens: the span is split into equal
 /// buckets, and the directory knows where each begins, so that a bisection looks at one bucket instead of the whole list:
 /// at one number where they are evenly spread, as a maze's are; at up to all of them where they are not, and then it is
-/// the plain bisection. It is an accelerator only: placing a number is a subtraction, a multiplication and a conversion,
+/// the plain bisection. It is an accelerator only: placing a number is a subtraction, a multiplication and a rounding,
 /// each of which keeps the order of its arguments under rounding, so what stands in a lower bucket is lower, and the
 /// bisection's answer is the same.
 #[derive(Clone, Debug, Default)]
@@ -17,19 +17,62 @@ pub(super) struct Coordinates {
     values: Vec<f64>,
     /// Rank of the first value in each bucket or beyond; one more entry ends the last bucket.
     buckets: Vec<u32>,
-    last_bucket: usize,
+    last_bucket: f64,
     origin: f64,
     buckets_per_unit: f64,
     /// Whether no bucket holds more than one value: then one comparison tells the rank.
     is_single: bool,
 }
 
+/// Collects the numbers of one axis and drops most of the repeated ones at once, before anything is sorted.
+#[derive(Default)]
+pub(super) struct Collector {
+    values: Vec<f64>,
+    /// The number last seen of each hash; empty while there are few numbers.
+    seen: Vec<u64>,
+}
+
+/// So many numbers are as well sorted with their repetitions.
+const FEW: usize = 1024;
+
+/// Hashes of as many bits: twice as many numbers as a board of 10⁷ planes has lines.
+const HASH_BITS: u32 = 14;
+
+impl Collector {
+    pub(super) fn push(&mut self, value: f64) {
+        if self.seen.is_empty() {
+            self.values.push(value);
+            if FEW <= self.values.len() {
+                // No finite number has these bits.
+                self.seen = vec![u64::MAX; 1 << HASH_BITS];
+            }
+            return;
+        }
+        let bits = value.to_bits();
+        // Fibonacci hashing (Knuth, "The Art of Computer Programming" 3, 6.4).
+        let hash = bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (u64::BITS - HASH_BITS);
+        #[allow(clippy::cast_possible_truncation, reason = "HASH_BITS bits")]
+        let seen = &mut self.seen[hash as usize];
+        if *seen != bits {
+            *seen = bits;
+            self.values.push(value);
+        }
+    }
+
+    pub(super) fn coordinates(self) -> Coordinates {
+        Coordinates::new(self.values)
+    }
+}
+
 /// Most buckets for each value, spent where they leave no two values in one bucket.
 const MOST_BUCKETS: usize = 4;
 
+/// 2⁵² is so large that a number below 2³² added to it is rounded to a whole one.
+const ROUNDS_TO_WHOLE: f64 = 4_503_599_627_370_496.0;
+
 impl Coordinates {
     /// Sorts finite numbers and drops the repeated ones.
-    pub(super) fn new(mut values: Vec<f64>) -> Self {
+    fn new(mut values: Vec<f64>) -> Self {
         values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         let n_values = values.len();
@@ -61,7 +104,7 @@ impl Coordinates {
         let is_split = per_unit.is_finite() && 0.0 < per_unit;
         self.buckets_per_unit = if is_split { per_unit } else { 0.0 };
         let last = if is_split { last } else { 0 };
-        self.last_bucket = last as usize;
+        self.last_bucket = f64::from(last);
         self.is_single = true;
         self.buckets = vec![0; last as usize + 2];
         let (mut next, mut rank) = (0, 0);
@@ -89,13 +132,13 @@ impl Coordinates {
 
     /// The bucket of any number; the first or last one for numbers beyond the ends.
     fn bucket(&self, value: f64) -> usize {
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "saturates, which keeps the order"
-        )]
-        let bucket = ((value - self.origin) * self.buckets_per_unit) as u32 as usize;
-        if bucket < self.last_bucket { bucket } else { self.last_bucket }
+        let place = (value - self.origin) * self.buckets_per_unit;
+        let place = if 0.0 < place { place } else { 0.0 };
+        let place = if place < self.last_bucket { place } else { self.last_bucket };
+        // The nearest whole number, in the lower half of the sum's bits.
+        #[allow(clippy::cast_possible_truncation, reason = "the lower half is meant")]
+        let bucket = (place + ROUNDS_TO_WHOLE).to_bits() as u32;
+        bucket as usize
     }
 
     /// Number of values of which `is_before` holds, which holds of all below `value` and of none above it.
@@ -170,6 +213,15 @@ mod tests {
                 prop_assert_eq!(coordinates.rank_of(*known), rank);
             }
         }
+    }
+
+    #[test]
+    fn collected_numbers_are_the_distinct_ones_however_often_they_repeat() {
+        let mut collector = Collector::default();
+        (0..100_000_u32).for_each(|n| collector.push(f64::from(n * 7919 % 20_011)));
+        let coordinates = collector.coordinates();
+        assert_eq!(coordinates.values[..20_011], (0..20_011).map(f64::from).collect::<Vec<_>>());
+        assert_eq!(coordinates.len(), 20_011);
     }
 
     #[test]

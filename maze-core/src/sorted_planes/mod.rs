@@ -6,7 +6,7 @@ mod group;
 mod nearby;
 
 use crate::plane::{Facing, Plane, PlaneError};
-use coordinates::Coordinates;
+use coordinates::{Collector, Coordinates};
 use group::{Group, Interval, Row};
 use nalgebra::Vector2;
 pub use nearby::Clearance;
@@ -50,15 +50,20 @@ impl SortedPlanes {
     /// A plane with a coordinate that is not finite, or with no extent; more than 2²⁸ planes of one facing.
     pub fn new(planes: impl IntoIterator<Item = Plane>) -> Result<Self, PlaneError> {
         let mut by_facing: [Vec<[f64; 3]>; 4] = Default::default();
+        let mut collectors = <[Collector; 2]>::default();
         for (index, plane) in planes.into_iter().enumerate() {
             let Plane { facing, offset, start, end } = plane.checked(index)?;
             // Adding 0 takes the sign of -0: coordinates are compared as numbers.
-            by_facing[facing as usize].push([offset, start, end].map(|value| value + 0.0));
+            let numbers @ [offset, start, end] = [offset, start, end].map(|value| value + 0.0);
+            by_facing[facing as usize].push(numbers);
+            collectors[facing.axis()].push(offset);
+            collectors[1 - facing.axis()].push(start);
+            collectors[1 - facing.axis()].push(end);
         }
         if by_facing.iter().any(|planes| MAX_PLANES < planes.len()) {
             return Err(PlaneError::TooMany);
         }
-        let axes = [0, 1].map(|axis| Coordinates::new(values_along(axis, &by_facing)));
+        let axes = collectors.map(Collector::coordinates);
         let mut groups = <[Group; 4]>::default();
         for (facing, planes) in Facing::ALL.into_iter().zip(by_facing) {
             let (across, along) = (&axes[facing.axis()], &axes[1 - facing.axis()]);
@@ -152,16 +157,27 @@ impl SortedPlanes {
     }
 
     /// The rows of one group with offsets in a closed range, in the direction of motion of a ball that they stop.
-    pub(crate) fn rows_within(
-        &self,
-        facing: Facing,
-        [low, high]: [f64; 2],
-    ) -> impl Iterator<Item = RowView<'_>> {
-        let (group, across) = (self.group(facing), &self.axes[facing.axis()]);
-        let (begin, end) = (group.row_from(across.n_below(low)), group.row_from(across.n_not_above(high)));
+    pub(crate) fn rows_within(&self, facing: Facing, range: [f64; 2]) -> impl Iterator<Item = RowView<'_>> {
+        self.rows(facing, self.rows_at(facing, &self.ranks(facing.axis(), range)))
+    }
+
+    /// Ranks of the coordinates of an axis within a closed range.
+    pub(crate) fn ranks(&self, axis: usize, range: [f64; 2]) -> Range<u32> {
+        self.axes[axis].within(range)
+    }
+
+    /// Indices of the rows of one group at ranks of offsets.
+    pub(crate) fn rows_at(&self, facing: Facing, ranks: &Range<u32>) -> Range<usize> {
+        let group = self.group(facing);
+        group.row_from(ranks.start)..group.row_from(ranks.end)
+    }
+
+    /// Rows of one group by index, in the direction of motion of a ball that they stop.
+    pub(crate) fn rows(&self, facing: Facing, rows: Range<usize>) -> impl Iterator<Item = RowView<'_>> {
+        let group = self.group(facing);
         let ascends = facing.sign() < 0.0;
-        (begin..end).map(move |index| {
-            let index = if ascends { index } else { begin + (end - 1 - index) };
+        rows.clone().map(move |index| {
+            let index = if ascends { index } else { rows.start + (rows.end - 1 - index) };
             self.view(facing, &group.rows[index])
         })
     }
@@ -188,14 +204,6 @@ impl PartialEq for SortedPlanes {
     fn eq(&self, other: &Self) -> bool {
         Facing::ALL.into_iter().all(|facing| self.faces(facing).eq(other.faces(facing)))
     }
-}
-
-/// All numbers along one axis that planes use.
-fn values_along(axis: usize, by_facing: &[Vec<[f64; 3]>; 4]) -> Vec<f64> {
-    let list = |facing: Facing| &by_facing[facing as usize];
-    let offsets = Facing::across(axis).into_iter().flat_map(list).map(|[offset, ..]| *offset);
-    let ends = Facing::across(1 - axis).into_iter().flat_map(list).flat_map(|[_, start, end]| [*start, *end]);
-    offsets.chain(ends).collect()
 }
 
 /// A row, to look for planes in.
@@ -226,9 +234,13 @@ impl RowView<'_> {
 
     /// The planes that touch a closed range along the row, ascending.
     pub(crate) fn within(self, range: [f64; 2]) -> impl Iterator<Item = Face> {
-        let Range { start: from, end: to } = self.along.within(range);
-        let rest = self.group.interval_from(self.row, from)..self.row.last as usize;
-        rest.take_while(move |index| self.group.intervals[*index].start.is_below(to))
+        self.at(self.along.within(range))
+    }
+
+    /// The planes that touch coordinates at these ranks along the row, or hold all of them, ascending.
+    pub(crate) fn at(self, ranks: Range<u32>) -> impl Iterator<Item = Face> {
+        let rest = self.group.interval_from(self.row, ranks.start)..self.row.last as usize;
+        rest.take_while(move |index| self.group.intervals[*index].start.is_below(ranks.end))
             .map(move |index| self.face(index))
     }
 
