@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_verify::bench::search::CONTENDERS;
-use maze_verify::bench::{Agreement, Case, Contender, Figures, Plan, Query, REFERENCE, Search, measure};
+use maze_verify::bench::{Agreement, Case, Contender, Figures, Group, Plan, Query, REFERENCE, Search};
+use maze_verify::bench::{measure, tick};
 use std::process::Command;
 use std::time::Duration;
 
@@ -46,6 +47,20 @@ fn all_take_part_and_agree() {
     assert!(rows.iter().all(|row| row.len() == 7));
     let misses = figures.groups.iter().filter_map(|group| group.touches).filter(|part| *part < 1.0);
     assert!(0 < misses.count(), "both touches and none");
+}
+
+#[test]
+fn all_engines_tick_and_agree() {
+    let mut figures = figures(&[]);
+    tick::measure(&tiny(), &mut figures, &|_| {}).unwrap();
+    assert!(figures.held(), "{}", figures.table());
+    for contender in tick::ROLLING {
+        let is_timed = |group: &Group| group.ns(contender.name).is_some_and(|ns| 0.0 < ns.median);
+        assert!(figures.groups.iter().any(is_timed), "{}", contender.name);
+        assert!(figures.table().contains(contender.name));
+    }
+    let csv = figures.csv();
+    assert!(csv.lines().skip_while(|line| line.starts_with('#')).all(|line| line.split(',').count() == 7));
 }
 
 /// Sorted planes that answer one fast query, the first they meet, a little too late.

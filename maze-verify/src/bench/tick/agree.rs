@@ -110,3 +110,50 @@ fn nothing(course: &Course) -> Comparison {
         holds: true,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CONTINUOUS, Contender, movers};
+    use super::*;
+    use crate::bench::case::Case;
+
+    /// The exact engine, whose ball is said to be somewhere else.
+    struct Shifted(Box<dyn Mover>, f64);
+
+    impl Mover for Shifted {
+        fn tick(&mut self, pull: Vector2<f64>) {
+            self.0.tick(pull);
+        }
+
+        fn n_balls(&self) -> usize {
+            self.0.n_balls()
+        }
+
+        fn ball(&self) -> Ball {
+            let ball = self.0.ball();
+            Ball { position: ball.position.map(|x| x + self.1), ..ball }
+        }
+
+        fn place(&mut self, ball: Ball) {
+            self.0.place(ball);
+        }
+    }
+
+    fn holds(agreement: Agreement, shift: f64) -> bool {
+        let case = Case::new(9, 1).unwrap();
+        let course = Course::middle(&case);
+        let exact = || movers::exact(&course).unwrap();
+        let shifted: Box<dyn Mover> = Box::new(Shifted(exact(), shift));
+        let mut built = [(CONTINUOUS, exact()), (Contender { agreement, ..CONTINUOUS }, shifted)];
+        compare_all(&course, &mut built)[0].holds
+    }
+
+    #[test]
+    fn a_ball_elsewhere_is_found() {
+        assert!(holds(Agreement::Exact, 0.0));
+        assert!(!holds(Agreement::Exact, 1.0e-14));
+        assert!(holds(FIRST_ORDER, 0.03));
+        assert!(!holds(FIRST_ORDER, 0.04), "0.04 along both axes is more than 0.05");
+        assert!(!holds(REPORT, f64::NAN));
+    }
+}

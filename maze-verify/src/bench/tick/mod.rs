@@ -4,10 +4,8 @@
 //! before (see [`agree`]): later than the first bounces their balls go different ways, as chaos has it.
 
 pub mod agree;
-mod balls;
 mod movers;
 
-pub use balls::balls;
 pub use movers::Mover;
 
 use super::agreement::{Agreement, Comparison};
@@ -18,7 +16,7 @@ use super::paired::{Runner, Series, time};
 use crate::board::Board;
 use crate::engine::Walls;
 use maze_core::{Ball, BallSpec, Continuous, Engine, SortedPlanes};
-use movers::{boxes, exact, published, rapier, without_directories};
+use movers::{boxes, crowd, exact, exact_on_2_threads, published, rapier, without_directories};
 use nalgebra::Vector2;
 use std::sync::Arc;
 use std::time::Duration;
@@ -29,6 +27,13 @@ pub const SPEEDS: [(f64, &str); 4] =
 
 /// Balls that are ticked in turn, each far from the last one: more than caches keep the surroundings of.
 const N_SCATTERED: usize = 4096;
+
+/// And as many as the question about many balls is about.
+const N_MANY: usize = 100_000;
+
+/// Ticks that scattered balls have behind them when they are first looked at: at rest in the middle of a cell none is near a
+/// wall, and later most are.
+const N_BEFORE: usize = 60;
 
 /// More than 10⁶ separate colliders take gigabytes, and seconds to insert.
 const MOST_COLLIDERS: usize = 1_200_000;
@@ -124,8 +129,16 @@ pub const ROLLING: [Contender; 8] = [
     BROAD_PHASE,
 ];
 
-/// All that tick balls all over the maze in turn. A step of rapier's moves all balls of a world: see [`balls`].
+/// All that tick balls all over the maze in turn. A step of rapier's moves all balls of a world: see [`MANY`].
 pub const ANYWHERE: [Contender; 4] = [CONTINUOUS, BISECTION, PUBLISHED, BROAD_PHASE];
+
+/// All that move a multitude.
+pub const MANY: [Contender; 4] = [
+    CONTINUOUS,
+    contender("continuous on 2 threads", "half of the balls each", Agreement::Exact, exact_on_2_threads),
+    PUBLISHED,
+    contender("rapier3d world of 10^4", "one step for all balls of a world", agree::FIRST_ORDER, crowd),
+];
 
 /// All that keep a fast ball between the walls.
 pub const FAST: [Contender; 4] = [CONTINUOUS, BISECTION, PUBLISHED, COMPOUND];
@@ -188,15 +201,32 @@ impl<'a> Course<'a> {
         !contender.is_separate || self.board.rectangles().len() <= MOST_COLLIDERS
     }
 
-    /// The exact engine with the first ball.
-    fn reference(&self) -> Result<Continuous, BenchError> {
+    /// Many balls all over the maze, in an order that no prefetcher guesses, which have rolled for a while.
+    ///
+    /// # Errors
+    /// As [`rolling`].
+    pub fn scattered(self, n: usize) -> Result<Self, BenchError> {
+        let pulls = turning_pulls();
+        let roll = |start| {
+            let mut engine = self.exact(Ball::at(start))?;
+            for pull in pulls.iter().take(N_BEFORE) {
+                engine.tick(*pull).map_err(BenchError::set_up)?;
+            }
+            Ok(engine.ball())
+        };
+        let starts: Result<Vec<Ball>, _> = self.case.scattered(n).into_iter().map(roll).collect();
+        Ok(Self { starts: starts?, ..self })
+    }
+
+    /// The exact engine with a ball.
+    fn exact(&self, ball: Ball) -> Result<Continuous, BenchError> {
         let planes = Arc::clone(self.case.planes());
-        Continuous::new(planes, self.spec, self.starts[0], TICK_S).map_err(BenchError::set_up)
+        Continuous::new(planes, self.spec, ball, TICK_S).map_err(BenchError::set_up)
     }
 
     /// Hits in a tick of the first ball, on average over many.
     fn hits_a_tick(&self, pulls: &[Vector2<f64>]) -> Result<f64, BenchError> {
-        let mut engine = self.reference()?;
+        let mut engine = self.exact(self.starts[0])?;
         let mut n_hits = 0;
         for pull in pulls.iter().cycle().take(N_COUNTED) {
             n_hits += engine.tick(*pull).map_err(BenchError::set_up)?.n_hits;
@@ -237,7 +267,8 @@ type Built = (Contender, Box<dyn Mover>);
 const N_COUNTED: usize = 3330;
 
 fn entrant(name: &'static str, mover: Box<dyn Mover>, pulls: &[Vector2<f64>]) -> Entrant {
-    Entrant { runner: Runner { name, run: in_turn(mover, pulls.to_vec()) }, n_balls: 1 }
+    let n_balls = mover.n_balls();
+    Entrant { runner: Runner { name, run: in_turn(mover, pulls.to_vec()) }, n_balls }
 }
 
 /// Ticks on under pull after pull, from the first again after the last.
@@ -273,10 +304,26 @@ pub fn rolling(course: &Course) -> Result<Question, BenchError> {
 /// # Errors
 /// As [`rolling`].
 pub fn anywhere(course: Course) -> Result<Question, BenchError> {
-    let starts = course.case.scattered(N_SCATTERED).into_iter().map(Ball::at).collect();
-    let course = Course { starts, ..course };
-    let built = course.build(&ANYWHERE)?;
-    Ok(Question { hits_a_tick: None, ..course.ask("ticks anywhere", built, &turning_pulls())? })
+    scattered("ticks anywhere", course, N_SCATTERED, &ANYWHERE)
+}
+
+/// So many balls that not even they themselves stay in the caches; the time is that of one ball's tick.
+///
+/// # Errors
+/// As [`rolling`].
+pub fn many(case: &Case) -> Result<Question, BenchError> {
+    scattered("10^5 balls", Course::middle(case), N_MANY, &MANY)
+}
+
+fn scattered(
+    name: &'static str,
+    course: Course,
+    n: usize,
+    contenders: &[Contender],
+) -> Result<Question, BenchError> {
+    let course = course.scattered(n)?;
+    let built = course.build(contenders)?;
+    Ok(Question { hits_a_tick: None, ..course.ask(name, built, &turning_pulls())? })
 }
 
 /// A ball that bounces without loss and without pull.
@@ -311,23 +358,22 @@ pub fn growth(mazes: Vec<(Arc<SortedPlanes>, Vector2<f64>)>) -> Result<Question,
         let Some((name, _)) = SIZES.into_iter().find(|(_, sizes)| sizes.contains(&planes.len())) else {
             continue;
         };
-        let engine = Continuous::new(planes, spec(), Ball::at(middle), TICK_S).map_err(BenchError::set_up)?;
-        entrants.push(entrant(name, movers::of_engine(engine), &turning_pulls()));
+        entrants.push(entrant(name, movers::alone(planes, Ball::at(middle))?, &turning_pulls()));
     }
     let name = "rolling tick as mazes grow";
     Ok(Question { name, n_planes, hits_a_tick: None, comparisons: Vec::new(), entrants })
 }
 
 /// Cells and tiles of the maze that a fast ball bounces in: about 10⁴ planes.
-const FAST_SIZE: [usize; 2] = [27, 3];
+pub const FAST_SIZE: [usize; 2] = [27, 3];
 
 /// And of the maze of the many balls: about 10⁵ planes.
-const BALLS_SIZE: [usize; 2] = [27, 10];
+pub const MANY_SIZE: [usize; 2] = [27, 10];
 
 /// How often [`measure`] tells what comes next.
 pub fn n_steps(plan: &Plan) -> usize {
     let has = |size| usize::from(plan.tick_sizes.contains(&size));
-    2 * plan.tick_sizes.len() + 1 + SPEEDS.len() * has(FAST_SIZE) + has(BALLS_SIZE)
+    2 * plan.tick_sizes.len() + 1 + SPEEDS.len() * has(FAST_SIZE) + has(MANY_SIZE)
 }
 
 /// Measures all questions about ticks; fast balls and many balls where the plan has their mazes. `on_step` hears what comes
@@ -363,9 +409,9 @@ pub fn measure(plan: &Plan, figures: &mut Figures, on_step: &dyn Fn(&str)) -> Re
             add(fast(&case, speed)?);
         }
     }
-    if plan.tick_sizes.contains(&BALLS_SIZE) {
+    if plan.tick_sizes.contains(&MANY_SIZE) {
         on_step("many balls");
-        add(balls(&Case::new(BALLS_SIZE[0], BALLS_SIZE[1])?)?);
+        add(many(&Case::new(MANY_SIZE[0], MANY_SIZE[1])?)?);
     }
     Ok(())
 }
