@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
 use indicatif::{ProgressBar, ProgressStyle};
 use maze_verify::results::{Partition, Results};
 use maze_verify::scene::{self, Scene};
-use maze_verify::{Contender, build, relaxation, report, run};
+use maze_verify::{Contender, bench, build, relaxation, report, run};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -21,7 +21,7 @@ struct CommandLine {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Lists the scenes and the engines
+    /// Lists the scenes, the engines and the contenders of the benchmark
     List,
     /// Runs scenes and says whether every bar holds (exit status 1 when not)
     ///
@@ -99,6 +99,10 @@ fn list() -> Result<bool, BadInput> {
     text += "\nScenes\n";
     for scene in scene::catalogue() {
         text += &format!("  {:<22} {}\n", scene.name, scene.about);
+    }
+    text += "\nContenders of the benchmark\n";
+    for contender in bench::search::CONTENDERS {
+        text += &format!("  {:<22} {}\n", contender.name, contender.about);
     }
     files::print(&text).map(|()| true)
 }

@@ -29,7 +29,9 @@ fn list_names_scenes_and_engines() {
     let directory = tempfile::tempdir().unwrap();
     let output = verify(directory.path(), &["list"]);
     assert!(output.status.success());
-    for name in ["head-on", "corner-10", "maze-100", "level-default", "continuous", "rapier-rolling"] {
+    for name in
+        ["head-on", "corner-10", "maze-100", "level-default", "continuous", "rapier-rolling", "bit grid"]
+    {
         assert!(stdout(&output).lines().any(|line| line.trim_start().starts_with(name)), "{name}");
     }
 }

@@ -88,11 +88,20 @@ impl Figures {
             x_label: "planes".to_owned(),
             x_scale: Scale::Log,
             y_scale: Scale::Log,
-            x_ticks: Vec::new(),
+            x_ticks: powers(&groups),
             // The first contender comes last, over the others.
             lines: lines.collect::<Vec<_>>().into_iter().rev().collect(),
         }
     }
+}
+
+/// Ticks at the powers of ten that the sizes are near.
+#[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+fn powers(groups: &[&Group]) -> Vec<(f64, String)> {
+    let power = |group: &&Group| (group.n_planes.max(1) as f64).log10().round();
+    let mut powers: Vec<f64> = groups.iter().map(power).collect();
+    powers.dedup();
+    powers.into_iter().map(|power| (10.0_f64.powf(power), format!("1e{power}"))).collect()
 }
 
 fn class(index: usize) -> String {

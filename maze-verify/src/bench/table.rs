@@ -68,6 +68,9 @@ fn agreement_block(comparisons: &[Comparison], limit: f64, text: &mut String) {
         let cells: Vec<String> = queries.iter().map(|queries| of(queries)).collect();
         let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
     }
+    for (names, reason) in reasons(comparisons) {
+        let _ = writeln!(text, "  {names}: {reason}");
+    }
     for found in comparisons.iter().filter(|found| !found.holds) {
         let _ = writeln!(
             text,
@@ -82,6 +85,20 @@ fn agreement_block(comparisons: &[Comparison], limit: f64, text: &mut String) {
             found.n_missed,
         );
     }
+}
+
+/// Why answers may differ: the contenders with each reason.
+fn reasons(comparisons: &[Comparison]) -> Vec<(String, &'static str)> {
+    let reason = |found: &Comparison| match found.agreement {
+        Agreement::Exact => None,
+        Agreement::Mostly { reason, .. } | Agreement::OtherQuestion(reason) => Some(reason),
+    };
+    let names = |reason_of_all: &'static str| {
+        let found = comparisons.iter().filter(|found| reason(found) == Some(reason_of_all));
+        distinct(found.map(|found| found.contender)).join(", ")
+    };
+    let reasons = distinct(comparisons.iter().filter_map(reason));
+    reasons.into_iter().map(|reason| (names(reason), reason)).collect()
 }
 
 /// What is off in several comparisons together.

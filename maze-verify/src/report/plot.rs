@@ -143,6 +143,7 @@ impl Plot {
     }
 
     /// The plot as a part of a larger picture, [`WIDTH`] by [`HEIGHT`].
+    #[cfg(feature = "bench")]
     pub(crate) fn svg_at(&self, x: f64, y: f64) -> String {
         self.element(&format!(" x=\"{x}\" y=\"{y}\" width=\"{WIDTH}\" height=\"{HEIGHT}\""))
     }
