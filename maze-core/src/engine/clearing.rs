@@ -5,9 +5,9 @@ use crate::plane::{Facing, Plane};
 use crate::sorted_planes::{SortedPlanes, WIDENED};
 use nalgebra::Vector2;
 
-/// How far a clearing may extend where the ball is heading (radii): as far as a slow ball rolls in some twenty ticks. A
+/// How far a clearing may extend where the ball is heading (radii): as far as a slow ball rolls in some thirty ticks. A
 /// larger one lasts longer but has more planes to be kept away from.
-const AHEAD: f64 = 2.0;
+const AHEAD: f64 = 3.0;
 
 /// How far it may extend on the other side (radii), for a ball that turns.
 const BEHIND: f64 = 0.5;
@@ -28,7 +28,7 @@ pub(super) struct Clearing {
 }
 
 impl Clearing {
-    /// What is free around a ball; `None` when a plane is too near to stay away from along an axis.
+    /// What is free around a ball; `None` when it touches more than what carries it.
     pub(super) fn around(
         planes: &SortedPlanes,
         ball: Ball,
@@ -78,7 +78,7 @@ impl Clearing {
         self.low[axis] <= coordinate && coordinate <= self.high[axis]
     }
 
-    /// Takes away what is within reach of a plane, on the side that leaves the centre more room.
+    /// Takes away what is within reach of a plane, on the side that leaves the centre more room; `None` when the centre is.
     fn stay_away(&mut self, plane: &Plane, centre: Vector2<f64>, reach: f64) -> Option<()> {
         let (across, along) = (plane.facing.axis(), 1 - plane.facing.axis());
         let (below, above) = (plane.offset - reach, plane.offset + reach);
@@ -90,17 +90,32 @@ impl Clearing {
         if is_clear {
             return Some(());
         }
-        // How far the centre is from each of the four limits, and on their free side where that is not negative.
-        let room_across =
-            if centre[across] < plane.offset { below - centre[across] } else { centre[across] - above };
-        let room_along =
-            if centre[along] < plane.start { before - centre[along] } else { centre[along] - behind };
-        match room_along < room_across {
-            _ if room_across < 0.0 && room_along < 0.0 => return None,
-            true if centre[across] < plane.offset => self.stay_below(across, below),
-            true => self.stay_above(across, above),
-            false if centre[along] < plane.start => self.stay_below(along, before),
-            false => self.stay_above(along, behind),
+        let is_below = centre[across] < plane.offset;
+        let is_before = centre[along] < plane.start;
+        // How far the centre is from the plane along either axis; negative where it is beside it.
+        let away = if is_below { plane.offset - centre[across] } else { centre[across] - plane.offset };
+        let gap = if is_before { plane.start - centre[along] } else { centre[along] - plane.end };
+        // Beyond reach along one axis, the box ends where the reach does; else both end on the circle around the corner.
+        let (ends_across, ends_along) = match () {
+            () if reach <= away && gap <= away => (Some(reach), None),
+            () if reach <= gap => (None, Some(reach)),
+            () if 0.0 < gap && reach * reach < away * away + gap * gap => {
+                let part = reach / (away * away + gap * gap).sqrt();
+                (Some(away * part), Some(gap * part))
+            }
+            () => return None,
+        };
+        if let Some(distance) = ends_across {
+            match is_below {
+                true => self.stay_below(across, plane.offset - distance),
+                false => self.stay_above(across, plane.offset + distance),
+            }
+        }
+        if let Some(distance) = ends_along {
+            match is_before {
+                true => self.stay_below(along, plane.start - distance),
+                false => self.stay_above(along, plane.end + distance),
+            }
         }
         Some(())
     }

@@ -142,6 +142,7 @@ impl Coordinates {
     }
 
     /// Number of values of which `is_before` holds, which holds of all below `value` and of none above it.
+    #[inline]
     fn rank(&self, value: f64, is_before: impl Fn(f64) -> bool) -> u32 {
         let bucket = self.bucket(value);
         let from = self.buckets[bucket];
@@ -155,18 +156,23 @@ impl Coordinates {
     }
 
     /// Number of values below a finite number: the rank of the first that is not.
+    #[inline]
     pub(super) fn n_below(&self, value: f64) -> u32 {
         self.rank(value, |known| known < value)
     }
 
     /// Number of values at or below a finite number: the rank of the first above it.
+    #[inline]
     pub(super) fn n_not_above(&self, value: f64) -> u32 {
         self.rank(value, |known| known <= value)
     }
 
     /// Ranks of the values within a closed range.
+    #[inline]
     pub(super) fn within(&self, [low, high]: [f64; 2]) -> Range<u32> {
-        self.n_below(low)..self.n_not_above(high)
+        let from = self.n_below(low);
+        // Most often there is none.
+        if high < self.values[from as usize] { from..from } else { from..self.n_not_above(high) }
     }
 
     /// The rank of a number that is one of the values.
