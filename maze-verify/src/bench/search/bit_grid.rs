@@ -69,9 +69,9 @@ impl Search for BitGrid {
 
 /// The cell in whose region a coordinate lies. Regions meet in the middle of passages and walls, and what can be touched
 /// from within half a wall beyond is looked at too: rounding moves no border that far.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates at 0")]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not below 0")]
 fn cell_at(value: f64) -> usize {
-    ((value - MIDDLE) * (1.0 / PITCH)) as i64 as usize
+    (((value - MIDDLE) * (1.0 / PITCH)) as i64).max(0) as usize
 }
 
 /// Where a cell's region begins.
@@ -140,6 +140,8 @@ impl First<'_> {
             // A tick's parabola: all cells of the box around it are a handful.
             let [[left, below], [right, above]] =
                 [[whole[0].low, whole[1].low], [whole[0].high, whole[1].high]].map(|ends| ends.map(cell_at));
+            // The box may reach beyond the maze.
+            let [right, above] = [right, above].map(|cell| cell.min(4 * grid.n_across - 1));
             for cell in (below..=above).flat_map(|y| (left..=right).map(move |x| [x, y])) {
                 self.look(grid, cell, whole, self::near(cell, whole), moves);
             }

@@ -126,3 +126,29 @@ pub const CONTENDERS: [Contender; 13] = {
         .up_to(MILLION),
     ]
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_exact_ones_agree_on_parabolas_over_several_cells_too() {
+        let case = Case::new(9, 2).unwrap();
+        let mut queries = case.random("", 2.0, 3000).queries;
+        for (index, pull) in super::super::case::turning_pulls().into_iter().cycle().take(3000).enumerate() {
+            queries[index].path.acceleration = pull * [0.5, 4.0, 30.0][index % 3];
+        }
+        let exact = CONTENDERS.iter().filter(|contender| contender.agreement == Agreement::Exact);
+        let answers = exact.map(|contender| {
+            let mut search = (contender.build)(&case).unwrap();
+            let bits = |query| search.first_touch(query).map(f64::to_bits);
+            (contender.name, queries.iter().map(bits).collect::<Vec<_>>())
+        });
+        let answers: Vec<_> = answers.collect();
+        let (_, truth) = &answers[0];
+        assert!(truth.iter().any(Option::is_some) && truth.iter().any(Option::is_none));
+        for (name, given) in &answers {
+            assert!(given == truth, "{name}");
+        }
+    }
+}
