@@ -120,11 +120,6 @@ impl Clearing {
         Some(())
     }
 
-    /// Whether a face across an axis carries the ball.
-    pub(super) fn is_carried(&self, axis: usize) -> bool {
-        self.carried[axis] != 0.0
-    }
-
     /// The ball after a time under an acceleration, if it stays in the clearing and is pressed onto what carries it.
     pub(super) fn pass(&self, ball: Ball, acceleration: Vector2<f64>, time_s: f64) -> Option<Ball> {
         let (x, x_speed) = self.pass_along(0, ball, acceleration.x, time_s)?;
@@ -135,7 +130,7 @@ impl Clearing {
     /// Coordinate and speed along one axis, computed as [`crate::impact::Path`] does.
     fn pass_along(&self, axis: usize, ball: Ball, pull: f64, time_s: f64) -> Option<(f64, f64)> {
         let (from, speed) = (ball.position[axis], ball.velocity[axis]);
-        if self.is_carried(axis) {
+        if self.carried[axis] != 0.0 {
             let stays = pull * self.carried[axis] < 0.0 && speed == 0.0 && from == self.low[axis];
             return stays.then_some((from, 0.0));
         }
