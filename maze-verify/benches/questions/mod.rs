@@ -1,9 +1,10 @@
 //! Questions about ticks, with criterion's statistics.
 
+use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput};
 use maze_verify::bench::BenchError;
 use maze_verify::bench::tick::Question;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Short, since there are many.
 pub(crate) fn config() -> Criterion {
@@ -35,7 +36,7 @@ pub(crate) fn ask(criterion: &mut Criterion, question: Result<Question, BenchErr
         group.throughput(Throughput::Elements(entrant.n_balls as u64));
         group.bench_function(BenchmarkId::new(entrant.runner.name, &parameter), |bencher| {
             bencher.iter_custom(|n| {
-                let start = Instant::now();
+                let start = ProcessTime::now();
                 std::hint::black_box((entrant.runner.run)(usize::try_from(n).unwrap_or(usize::MAX)));
                 start.elapsed()
             });

@@ -6,7 +6,8 @@ use super::figures::{Figures, Group};
 use super::machine::Machine;
 use super::paired::{Runner, Series, time};
 use super::search::{Contender, in_turn};
-use std::time::{Duration, Instant};
+use cpu_time::ProcessTime;
+use std::time::Duration;
 
 /// Names of the random queries, one a length of [`STEPS`].
 const RANDOM: [&str; STEPS.len()] = ["random 0.01", "random 0.1", "random 1", "random 10"];
@@ -145,7 +146,7 @@ fn build_all<'a>(
     for _ in 0..n_rounds {
         built.clear();
         for (contender, series) in taking_part().zip(&mut series) {
-            let start = Instant::now();
+            let start = ProcessTime::now();
             built.push((contender, (contender.build)(case)?));
             #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
             series.ns.push(start.elapsed().as_secs_f64() * 1.0e9 / n_planes.max(1) as f64);
