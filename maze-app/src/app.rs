@@ -84,6 +84,8 @@ pub(crate) struct App {
     source: Source,
     labels: Labels,
     textures: TextureSet,
+    /// Where they come from whatever the maze.
+    textures_flag: Option<PathBuf>,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
     state_log: Option<StateLog>,
@@ -129,6 +131,7 @@ impl App {
             game,
             source: setup.source,
             textures: setup.textures,
+            textures_flag: setup.textures_flag,
             state_log_path: setup.state_log,
             state_log: None,
             record: setup.record,
@@ -174,7 +177,7 @@ impl App {
         self.drawn_by.clone()
     }
 
-    /// When the first frame had been handed over.
+    /// When the first frame had been drawn.
     pub(crate) fn first_frame(&self) -> Option<Instant> {
         self.first_frame
     }
@@ -254,6 +257,7 @@ impl App {
     fn load(&mut self, changed: bool) -> Result<(), Failure> {
         if changed {
             self.game = self.game.on(self.source.load()?)?;
+            self.cover_with(self.textures_of(&self.source)?);
             self.load_into_graphics()?;
             self.begin();
         }
@@ -272,9 +276,11 @@ impl App {
     /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
     fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
         let source = self.source.of_file(path);
-        match source.load().and_then(|maze| self.game.on(maze)) {
-            Ok(game) => {
+        let game = source.load().and_then(|maze| self.game.on(maze));
+        match game.and_then(|game| Ok((game, self.textures_of(&source)?))) {
+            Ok((game, textures)) => {
                 (self.game, self.source) = (game, source);
+                self.cover_with(textures);
                 self.load_into_graphics()?;
                 self.begin();
             }
@@ -386,7 +392,10 @@ impl App {
             Drawn::Shown { encode, present } => {
                 self.frame_log.push(Parts { simulate, encode: prepare + encode, present });
                 graphics.tell_times(&mut self.frame_log);
-                self.first_frame.get_or_insert_with(Instant::now);
+                if self.first_frame.is_none() {
+                    graphics.wait();
+                    self.first_frame = Some(Instant::now());
+                }
                 self.drawn_by = Some((adapter, quality, size));
             }
             Drawn::Hidden => {}
@@ -464,7 +473,8 @@ impl ApplicationHandler for App {
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, _: StartCause) {
-        if self.exit_after.is_some_and(|exit_after| exit_after <= self.opened.elapsed()) {
+        let begun = self.first_frame.unwrap_or(self.opened);
+        if self.exit_after.is_some_and(|exit_after| exit_after <= begun.elapsed()) {
             event_loop.exit();
         }
     }

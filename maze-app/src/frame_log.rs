@@ -121,6 +121,12 @@ impl FrameLog {
         spread(self.frames.iter().map(|frame| frame.frame))
     }
 
+    /// The frame that took longest (ms), and when it ended (s after the first): the median hides a driver that stood still.
+    pub(crate) fn slowest(&self) -> Option<(f64, f64)> {
+        let slowest = self.frames.iter().max_by(|a, b| a.frame.total_cmp(&b.frame));
+        slowest.map(|frame| (frame.frame, frame.at_s))
+    }
+
     /// Simulate and encode together: what is ours of a frame.
     pub(crate) fn ours_ms(&self) -> Option<Spread> {
         spread(self.frames.iter().map(|frame| frame.parts.simulate + frame.parts.encode))
@@ -230,6 +236,12 @@ mod tests {
                 (rate.frames_per_s - 100.0).abs() < 1.0e-9 && (rate.processor_percent - 50.0).abs() < 1.0e-9
             );
         }
+    }
+
+    #[test]
+    fn the_slowest_frame_is_named_with_its_time() {
+        assert_eq!(log_of(std::iter::empty()).slowest(), None);
+        assert_eq!(log_of([16.0, 250.0, 17.0].into_iter()).slowest(), Some((250.0, 0.266)));
     }
 
     #[test]

@@ -38,6 +38,8 @@ pub(crate) struct Mesh {
     pub(crate) groups: [Range<u32>; 4],
     /// Strips along the tops' edges, see `vertex_edge` in `shader/plain.wgsl`; none unless asked for.
     pub(crate) edges: Range<u32>,
+    /// Strips up the corners between them, see `vertex_soft` in `shader/floor_light.wgsl`.
+    pub(crate) corners: Range<u32>,
 }
 
 impl Mesh {
@@ -55,8 +57,8 @@ impl Mesh {
         } else {
             Vec::new()
         };
-        let n_edges = rim_edges.len() + top_edges.len();
-        let (n_vertices, n_indices) = (n_vertices + 4 * n_edges, n_indices + 6 * n_edges);
+        let n_strips = rim_edges.len() + 3 * top_edges.len();
+        let (n_vertices, n_indices) = (n_vertices + 4 * n_strips, n_indices + 6 * n_strips);
         check_size(n_vertices, n_indices, max_bytes)?;
         if n_indices == 0 {
             return Ok(None);
@@ -81,6 +83,8 @@ impl Mesh {
         let rim = group_up_to(indices.len());
         add_edge_strips(&top_edges, &mut vertices, &mut indices);
         let edges = group_up_to(indices.len());
+        add_corner_strips(&top_edges, &mut vertices, &mut indices);
+        let corners = group_up_to(indices.len());
         let [wall, top, floor] = surfaces;
         let buffer = |contents: &[u8], usage| maze_buffer(gpu, contents, usage);
         Ok(Some(Self {
@@ -88,6 +92,7 @@ impl Mesh {
             indices: buffer(bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX)?,
             groups: [wall, top, floor, rim],
             edges,
+            corners,
         }))
     }
 
@@ -180,6 +185,22 @@ fn add_edge_strips(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut Vec
             vertices.push(Vertex { position: corner.position, normal, uv: corner.uv });
         }
         indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
+    }
+}
+
+/// Stands two strips on the floor at the first end of each of `edges` of tops, up to the top: eight vertices and twelve
+/// indices. Both sides of each lie on the corner; the shader moves one to the left or to the right. The tops' outlines
+/// are closed, so that each corner is the first end of one edge.
+fn add_corner_strips(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut Vec<u32>) {
+    for [a, _] in edges {
+        for side in [-1.0, 1.0] {
+            let Ok(first) = u32::try_from(vertices.len()) else { return };
+            let [x, y, z] = a.position;
+            for (height, side) in [(0.0, 0.0), (z, 0.0), (z, side), (0.0, side)] {
+                vertices.push(Vertex { position: [x, y, height], normal: [0.0, 0.0, side], uv: a.uv });
+            }
+            indices.extend([0, 1, 2, 0, 2, 3].map(|i| first + i));
+        }
     }
 }
 

@@ -70,12 +70,29 @@ impl Quality {
         if self.wants_srgb_target() { format } else { format.remove_srgb_suffix() }
     }
 
-    pub(crate) fn detail(self) -> Detail {
+    pub(crate) fn detail(self, device: wgpu::DeviceType) -> Detail {
         let high = Detail { n_samples: 4, anisotropy: 16, sun_looks: 3, sun_map_side: 2048 };
-        match self {
+        let detail = match self {
             Self::Low => Detail { n_samples: 1, anisotropy: 1, sun_looks: 1, sun_map_side: 1 },
             Self::Medium => Detail { anisotropy: 4, sun_looks: 2, ..high },
             Self::High => high,
+        };
+        // A driver that draws with the processor visits every texel in the pixel's footprint, whatever the limit (Mesa's
+        // llvmpipe): a wall seen nearly edge on has held up a frame for minutes.
+        let anisotropy = if device == wgpu::DeviceType::Cpu { 1 } else { detail.anisotropy };
+        Detail { anisotropy, ..detail }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_software_driver_never_gets_anisotropic_filtering() {
+        for quality in Quality::ALL {
+            assert_eq!(quality.detail(wgpu::DeviceType::Cpu).anisotropy, 1);
         }
+        assert_eq!(Quality::High.detail(wgpu::DeviceType::DiscreteGpu).anisotropy, 16);
     }
 }

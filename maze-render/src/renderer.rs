@@ -77,7 +77,7 @@ impl Renderer {
         textures: &TextureSet,
         quality: Quality,
     ) -> Self {
-        let detail = quality.detail();
+        let detail = quality.detail(gpu.adapter_info.device_type);
         let device = &gpu.device;
         let features = gpu.adapter.get_texture_format_features(target_format).flags;
         let n_samples = if features.sample_count_supported(detail.n_samples) { detail.n_samples } else { 1 };
@@ -134,6 +134,7 @@ impl Renderer {
             uv_from_maze: [1.0, 1.0, 0.0, 0.0],
             floor_mean: materials.floor_mean,
             sun_map_side: detail.sun_map_side,
+            softness: 0.0,
         };
         Self {
             background: Background::new(&shared),
@@ -171,6 +172,8 @@ impl Renderer {
         let occlusion = OcclusionMap::new(mesh, &self.board.bounds);
         self.board.uv_from_maze = occlusion.uv_from_maze;
         self.content = uploaded.map(|mesh| self.content(gpu, mesh, &occlusion));
+        let floor_light = self.content.as_ref().and_then(|content| content.floor_light.as_ref());
+        self.board.softness = floor_light.map_or(0.0, |map| map.softness(&occlusion.uv_from_maze));
         Ok(())
     }
 
@@ -272,7 +275,7 @@ impl Renderer {
         gpu.queue.write_buffer(&self.frame_buffer, 0, bytemuck::bytes_of(&frame));
         self.lines.set(gpu, &scene.lines, &scene.patches);
         let shows_ball = 0.0 < scene.ball.radius;
-        if let Some(Content { mesh, floor_light, .. }) = &self.content {
+        if let Some(Content { mesh, floor_light, .. }) = &mut self.content {
             match (&self.maze, floor_light) {
                 (Surfaces::Plain(_, pass), Some(map)) => {
                     pass.draw(encoder, &self.frame_group, map, mesh, shows_ball);

@@ -36,7 +36,17 @@ pub(crate) const GHOST: Shader =
     shader!(["frame.wgsl", "output.wgsl", "sphere.wgsl", "ghost.wgsl"], &["vertex", "fragment"]);
 pub(crate) const FLOOR_LIGHT: Shader = shader!(
     ["frame.wgsl", "lighting.wgsl", "floor_light.wgsl"],
-    &["vertex_sky", "fragment_sky", "vertex_wall", "fragment_wall", "vertex_ball", "fragment_ball"]
+    &[
+        "vertex_sky",
+        "fragment_sky",
+        "fragment_day",
+        "vertex_wall",
+        "fragment_wall",
+        "vertex_soft",
+        "fragment_soft",
+        "vertex_ball",
+        "fragment_ball",
+    ]
 );
 pub(crate) const PLAIN: Shader = shader!(
     ["frame.wgsl", "output.wgsl", "lighting.wgsl", "material.wgsl", "marks.wgsl", "plain.wgsl"],

@@ -8,7 +8,7 @@ use image::RgbImage;
 const MAX_SIDE: u32 = 8192;
 
 /// The three surfaces' pictures; each repeats over its surface.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TextureSet {
     /// Upright sides of walls.
     pub wall: RgbImage,
@@ -203,7 +203,12 @@ impl Mipmapped {
         for (mip_level, level) in (0..).zip(&levels) {
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo { mip_level, ..texture.as_image_copy() },
-                &level.rgba(bytes),
+                // As it came: the way to light and back changes nothing, and takes a while.
+                &if (level.width, level.height) == image.dimensions() {
+                    rgba(image)
+                } else {
+                    level.rgba(bytes)
+                },
                 wgpu::TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(4 * level.width),
@@ -280,12 +285,17 @@ impl Level {
     }
 }
 
+fn rgba(image: &RgbImage) -> Vec<u8> {
+    image.pixels().flat_map(|p| [p[0], p[1], p[2], u8::MAX]).collect()
+}
+
 fn mipmaps(image: &RgbImage, bytes: Bytes) -> Vec<Level> {
     // An empty picture has no pixel to show: a single grey one stands in.
     let whole = if image.is_empty() {
         Level { width: 1, height: 1, pixels: vec![[0.5; 3]] }
     } else {
-        let pixels = image.pixels().map(|p| p.0.map(|byte| bytes.read(byte))).collect();
+        let light: [f32; 256] = std::array::from_fn(|byte| bytes.read(u8::try_from(byte).unwrap_or(u8::MAX)));
+        let pixels = image.pixels().map(|p| p.0.map(|byte| light[usize::from(byte)])).collect();
         Level { width: image.width(), height: image.height(), pixels }
     };
     let mut levels = vec![whole];

@@ -78,11 +78,20 @@ impl Graphics {
         Ok(Self { window, display, gpu, target, renderer, overlay, timer, n_rebuilds })
     }
 
-    /// Draws at another quality from now on. The maze has to be set again.
-    pub(super) fn set_quality(&mut self, quality: Quality, textures: &TextureSet) {
+    /// Draws at another quality or with other textures from now on. The maze has to be set again.
+    pub(super) fn set_look(&mut self, quality: Quality, textures: &TextureSet) {
         self.target.set_srgb(&self.gpu, quality.wants_srgb_target());
         self.renderer = Renderer::with_quality(&self.gpu, self.target.format(), textures, quality);
+        for note in self.renderer.notes() {
+            files::note(note);
+        }
         self.overlay = Overlay::new(&self.gpu, self.target.format());
+    }
+
+    /// Until the adapter has drawn all that it was given.
+    pub(super) fn wait(&self) {
+        // A device that is lost instead says so at the next frame.
+        let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
     pub(super) fn quality(&self) -> Quality {

@@ -6,8 +6,8 @@ use maze_core::Phase;
 use maze_render::Scene;
 use std::time::{Duration, Instant};
 
-/// After the last change frames go on this long: the HUD's panels fade in.
-const SETTLE: Duration = Duration::from_millis(400);
+/// After the last change frames go on this long: a panel whose words have become shorter is narrower a frame later.
+const SETTLE: Duration = Duration::from_millis(100);
 
 /// Frames of a still picture come this far apart, for a window that has come out from under another.
 const REST: Duration = Duration::from_millis(500);
@@ -108,7 +108,7 @@ mod tests {
         let frames = (0..600).map(|i| begun + Duration::from_millis(10 * i));
         let mut idle = Idle::default();
         let n_drawn = frames.clone().filter(|now| !idle.may_skip(*now, &scene, &hud(0), [9, 9])).count();
-        assert!((40 + 9..=40 + 13).contains(&n_drawn), "{n_drawn}");
+        assert!((10 + 9..=10 + 13).contains(&n_drawn), "{n_drawn}");
         let n_drawn =
             (0..).zip(frames).filter(|(i, now)| !idle.may_skip(*now, &scene, &hud(*i), [9, 9])).count();
         assert_eq!(n_drawn, 600);

@@ -3,7 +3,10 @@
 use super::App;
 use crate::failure::Failure;
 use crate::files;
+use crate::sidecar;
+use crate::source::Source;
 use image::ImageFormat;
+use maze_render::TextureSet;
 use std::io::Cursor;
 use std::path::Path;
 use std::time::Instant;
@@ -13,10 +16,25 @@ impl App {
         self.notice = Some((notice, Instant::now()));
     }
 
+    /// What a maze's surfaces look like: as its sidecar says, where no flag does.
+    pub(super) fn textures_of(&self, source: &Source) -> Result<TextureSet, Failure> {
+        sidecar::textures(self.textures_flag.as_deref(), source.file())
+    }
+
+    /// The maze has to be set again afterwards.
+    pub(super) fn cover_with(&mut self, textures: TextureSet) {
+        if textures != self.textures {
+            self.textures = textures;
+            if let Some(graphics) = &mut self.graphics {
+                graphics.set_look(graphics.quality(), &self.textures);
+            }
+        }
+    }
+
     pub(super) fn next_quality(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         let quality = graphics.quality().next();
-        graphics.set_quality(quality, &self.textures);
+        graphics.set_look(quality, &self.textures);
         self.notify(format!("quality: {}", quality.name()));
         self.load_into_graphics()
     }
@@ -35,5 +53,68 @@ impl App {
             Ok(path) => format!("saved {}", path.display()),
             Err(failure) => failure.to_string(),
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::Options;
+    use crate::command::play::Setup;
+    use crate::engine_kind::EngineKind;
+    use crate::quality::QualityChoice;
+    use crate::source::MazeArguments;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Cli {
+        #[command(flatten)]
+        maze: MazeArguments,
+    }
+
+    /// Without a window.
+    fn app() -> App {
+        let source = Source::new(&Cli::parse_from(["", "--level", "1"]).maze).unwrap();
+        let maze = source.load().unwrap();
+        let setup = Setup {
+            source,
+            textures: files::textures(None).unwrap(),
+            textures_flag: None,
+            engine: EngineKind::Continuous,
+            max_tilt_rad: 0.3,
+            state_log: None,
+            record: None,
+            exit_after: None,
+            quality: QualityChoice::Auto,
+        };
+        App::new(setup, Options::default(), maze).unwrap()
+    }
+
+    #[test]
+    fn a_dropped_file_brings_its_sidecar_s_textures_and_the_next_level_has_ours() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = |name: &str| directory.path().join(name);
+        let write = |name: &str, bytes: &[u8]| std::fs::write(file(name), bytes).unwrap();
+        let floor = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/textures/floor.bmp");
+        for name in ["wall.bmp", "floor.bmp", "top.bmp"] {
+            std::fs::copy(floor, file(name)).unwrap();
+        }
+        write("maze.txt", b"#####\n#S G#\n#####\n");
+        write("maze.toml", b"textures = '.'\n");
+        let mut app = app();
+        let ours = app.textures.clone();
+
+        app.drop_file(file("maze.txt")).unwrap();
+        assert_eq!(app.notice, None);
+        assert!(app.textures.wall == ours.floor && app.textures.floor == ours.floor, "its own");
+
+        write("maze.toml", b"textures = 'nowhere'\n");
+        app.drop_file(file("maze.txt")).unwrap();
+        assert!(app.notice.as_ref().is_some_and(|(text, _)| text.contains("nowhere")), "{:?}", app.notice);
+        assert!(app.textures.wall == ours.floor, "what is shown stays");
+
+        let changed = app.source.change_level(true).unwrap();
+        app.load(changed).unwrap();
+        assert!(changed && app.textures == ours, "a level has none of its own");
     }
 }

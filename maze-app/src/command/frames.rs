@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     file: Option<PathBuf>,
     #[command(flatten)]
     read: ReadArguments,
-    /// How long
+    /// How long, from the first frame on
     #[arg(long, value_name = "N", value_parser = parse_seconds, default_value = "10")]
     seconds: Duration,
     /// Pixels
@@ -120,6 +120,12 @@ impl Measured {
             format!("{:21}{}\n", "picture", self.title()),
             format!("{:21}{}, {rate:.1} a second at the median\n", "frames", log.len()),
             line("frame time", log.frame_ms()),
+            match log.slowest() {
+                Some((ms, at_s)) => {
+                    format!("{:21}{ms:.3} ms, ended {at_s:.1} s after the first\n", "  the slowest")
+                }
+                None => String::new(),
+            },
             line("our thread", log.ours_ms()),
             format!(
                 "{:21}{:.3} ms simulate, {:.3} ms encode, {:.3} ms present (medians)\n",
@@ -145,6 +151,7 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
     let setup = Setup {
         source,
         textures: files::textures(None)?,
+        textures_flag: None,
         engine: EngineKind::Continuous,
         max_tilt_rad: MAX_TILT_DEGREES.to_radians(),
         state_log: None,
@@ -184,10 +191,10 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     let labels = Labels::new(&source, game.maze());
     let mut clock = Clock::new(game.tick_s());
     let mut log = FrameLog::new(f64::MAX);
-    let (mut ahead, mut first_frame) = (VecDeque::new(), None);
-    let begun = Instant::now();
-    let mut last = begun;
-    while begun.elapsed() < arguments.seconds {
+    let (mut ahead, mut first_frame) = (VecDeque::new(), None::<Instant>);
+    let mut last = Instant::now();
+    // The first frame takes as long as the driver needs to make the shaders.
+    while first_frame.is_none_or(|first| first.elapsed() < arguments.seconds) {
         let watch = Stopwatch::start();
         let elapsed = last.elapsed();
         last = Instant::now();
@@ -230,7 +237,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             let wait = wgpu::PollType::Wait { submission_index: ahead.pop_front(), timeout: None };
             gpu.device.poll(wait).map_err(Failure::bad_input)?;
         }
-        first_frame.get_or_insert_with(|| started.elapsed());
+        first_frame.get_or_insert_with(Instant::now);
         log.push(Parts { simulate, encode, present: watch.ms() });
         while let Some((number, seconds)) = timer.as_mut().and_then(GpuTimer::take) {
             log.set_gpu_time(number, seconds);
@@ -239,6 +246,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             return Err(Failure::bad_input(error));
         }
     }
+    let first_frame = first_frame.map(|first| first - started);
     Ok(Measured { log, adapter: gpu.describe(), quality, size, first_frame })
 }
 

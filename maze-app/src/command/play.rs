@@ -58,6 +58,8 @@ pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
 pub(crate) struct Setup {
     pub(crate) source: Source,
     pub(crate) textures: TextureSet,
+    /// Where they come from whatever the maze.
+    pub(crate) textures_flag: Option<PathBuf>,
     pub(crate) engine: EngineKind,
     pub(crate) max_tilt_rad: f64,
     pub(crate) state_log: Option<PathBuf>,
@@ -78,6 +80,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let setup = Setup {
         source,
         textures,
+        textures_flag: arguments.textures,
         engine: arguments.engine,
         max_tilt_rad,
         state_log: arguments.state_log,

@@ -13,6 +13,9 @@ pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
 const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
 
+/// Where there is more to read, and the maze behind it is bright.
+pub(super) const DENSE_GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 245);
+
 /// Distance of the panels from the window's edge (points).
 pub(super) const MARGIN: f32 = 14.0;
 
@@ -129,10 +132,7 @@ impl Hud<'_> {
             self.goal_reached(ui.ctx());
         }
         if let Some(notice) = self.notice {
-            area(ui.ctx(), "notice", Align2::CENTER_TOP, vec2(0.0, 6.0 * MARGIN), |ui| {
-                ui.set_max_width(0.7 * screen.width());
-                ui.label(RichText::new(notice).color(GOLD));
-            });
+            show_notice(ui.ctx(), notice);
         }
         if is_small([screen.width(), screen.height()]) {
             return;
@@ -206,31 +206,46 @@ impl Hud<'_> {
 
     fn goal_reached(&self, context: &Context) {
         let frame = panel().inner_margin(Margin::symmetric(36, 22)).stroke(Stroke::new(1.5, GOLD));
-        egui::Area::new(egui::Id::unique("goal")).anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0)).show(
-            context,
-            |ui| {
-                frame.show(ui, |ui| {
-                    ui.vertical_centered(|ui| {
-                        ui.label(RichText::new("Goal reached").size(30.0).color(GOLD));
-                        let time = clock_text(self.seconds(self.n_ticks));
-                        ui.label(RichText::new(time).font(FontId::monospace(40.0)));
-                        ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
-                        if let Some(par_ticks) = self.labels.par_ticks {
-                            let under = if self.n_ticks < par_ticks { "under par" } else { "par" };
-                            let par = format!("{under} {}", clock_text(self.seconds(par_ticks)));
-                            let ink = if self.n_ticks < par_ticks { GOLD } else { QUIET_INK };
-                            ui.label(RichText::new(par).color(ink));
-                        }
-                        ui.add_space(6.0);
-                        let onwards = self.labels.onwards();
-                        let onwards = onwards.map(|effect| format!("      N or Enter  {effect}"));
-                        let next = format!("R  play again{}", onwards.unwrap_or_default());
-                        ui.label(RichText::new(next).size(16.0));
-                    });
+        floating(context, "goal", Align2::CENTER_CENTER, vec2(0.0, 0.0), |ui| {
+            frame.show(ui, |ui| {
+                ui.vertical_centered(|ui| {
+                    ui.label(RichText::new("Goal reached").size(30.0).color(GOLD));
+                    let time = clock_text(self.seconds(self.n_ticks));
+                    ui.label(RichText::new(time).font(FontId::monospace(40.0)));
+                    ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
+                    if let Some(par_ticks) = self.labels.par_ticks {
+                        let under = if self.n_ticks < par_ticks { "under par" } else { "par" };
+                        let par = format!("{under} {}", clock_text(self.seconds(par_ticks)));
+                        let ink = if self.n_ticks < par_ticks { GOLD } else { QUIET_INK };
+                        ui.label(RichText::new(par).color(ink));
+                    }
+                    ui.add_space(6.0);
+                    let onwards = self.labels.onwards();
+                    let onwards = onwards.map(|effect| format!("      N or Enter  {effect}"));
+                    let next = format!("R  play again{}", onwards.unwrap_or_default());
+                    ui.label(RichText::new(next).size(16.0));
                 });
-            },
-        );
+            });
+        });
     }
+}
+
+/// Denser than the panels, and over them.
+fn show_notice(context: &Context, text: &str) {
+    let screen = context.content_rect();
+    let painter =
+        context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::unique("notice")));
+    let galley = painter.layout(text.to_owned(), FontId::proportional(16.0), GOLD, 0.7 * screen.width());
+    let at = screen.center_top() + vec2(0.0, 6.0 * MARGIN);
+    let place = Align2::CENTER_TOP.anchor_size(at, galley.size());
+    painter.rect(
+        place.expand2(vec2(16.0, 10.0)),
+        8.0,
+        DENSE_GLASS,
+        Stroke::new(1.0, GOLD),
+        egui::StrokeKind::Inside,
+    );
+    painter.galley(place.min, galley, GOLD);
 }
 
 fn key_and_effect(ui: &mut Ui, key: &str, effect: &str, ink: Color32) {
@@ -244,9 +259,20 @@ pub(super) fn is_small(size_points: [f32; 2]) -> bool {
 }
 
 fn area(context: &Context, name: &str, anchor: Align2, offset: egui::Vec2, add: impl FnOnce(&mut Ui)) {
-    egui::Area::new(egui::Id::unique(name)).anchor(anchor, offset).interactable(false).show(context, |ui| {
+    floating(context, name, anchor, offset, |ui| {
         panel().show(ui, add);
     });
+}
+
+/// There from its first frame on, without fading in.
+fn floating(context: &Context, name: &str, anchor: Align2, offset: egui::Vec2, add: impl FnOnce(&mut Ui)) {
+    let id = egui::Id::unique(name);
+    let is_new = egui::AreaState::load(context, id).is_none();
+    egui::Area::new(id).anchor(anchor, offset).interactable(false).fade_in(false).show(context, add);
+    if is_new {
+        // The first time egui only measures.
+        context.request_discard("a new panel");
+    }
 }
 
 /// Minutes, seconds and hundredths.

@@ -107,3 +107,40 @@ fn to_u32(side: usize) -> u32 {
 pub(crate) fn to_points(pixels: u32, scale: f32) -> f32 {
     pixels as f32 / scale
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::overlay::Layers;
+    use maze_core::Phase;
+
+    #[test]
+    fn the_first_frame_shows_all_that_the_second_does() {
+        let context = egui::Context::default();
+        hud::style(&context);
+        let (labels, notes) = (Labels::default(), Notes::default());
+        let hud = Hud {
+            phase: Phase::Finished,
+            n_ticks: 7,
+            tick_s: 0.03,
+            ghost: None,
+            labels: &labels,
+            help: true,
+            notice: Some("maze.txt: no such file"),
+            layers: Layers::default(),
+            notes: &notes,
+            pace: None,
+            frames: None,
+        };
+        let frame = || {
+            let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 720.0));
+            let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };
+            let mut output = context.run_ui(input, |ui| hud.show(ui));
+            output.textures_delta.set.drain().for_each(drop);
+            let shapes = context.tessellate(output.shapes, output.pixels_per_point);
+            shapes.into_iter().filter_map(batch).collect::<Vec<_>>()
+        };
+        let first = frame();
+        assert!(!first.is_empty() && first == frame());
+    }
+}

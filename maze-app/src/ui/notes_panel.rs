@@ -1,6 +1,6 @@
 //! What the method's overlays have to say: panels on the left, and words at places in the maze.
 
-use super::hud::{GOLD, MARGIN, is_small, panel};
+use super::hud::{DENSE_GLASS, GOLD, MARGIN, is_small, panel};
 use crate::overlay::{Layers, Notes, Span};
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, FontId, RichText, TextFormat, TextWrapMode, Ui, vec2};
@@ -10,9 +10,6 @@ const LETTERS: f32 = 11.5;
 
 /// What panels take of the picture, with their margins (points).
 const WIDTH: f32 = 330.0;
-
-/// Denser than the other panels' glass: there is more to read, and the maze behind it is bright.
-const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 245);
 
 /// Words stand beside their place, not on it (points).
 const ASIDE: egui::Vec2 = vec2(10.0, -10.0);
@@ -45,7 +42,7 @@ impl Notes {
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for note in &self.panels {
-                panel().fill(GLASS).show(ui, |ui| {
+                panel().fill(DENSE_GLASS).show(ui, |ui| {
                     ui.set_width(WIDTH - 3.5 * MARGIN);
                     ui.label(RichText::new(&note.heading).color(GOLD).size(13.0));
                     for line in &note.lines {

@@ -121,6 +121,7 @@ impl Clearing {
     }
 
     /// The ball after a time under an acceleration, if it stays in the clearing and is pressed onto what carries it.
+    #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
     pub(super) fn pass(&self, ball: Ball, acceleration: Vector2<f64>, time_s: f64) -> Option<Ball> {
         let (x, x_speed) = self.pass_along(0, ball, acceleration.x, time_s)?;
         let (y, y_speed) = self.pass_along(1, ball, acceleration.y, time_s)?;
@@ -128,6 +129,7 @@ impl Clearing {
     }
 
     /// Coordinate and speed along one axis, computed as [`crate::impact::Path`] does.
+    #[inline(always)] // As above.
     fn pass_along(&self, axis: usize, ball: Ball, pull: f64, time_s: f64) -> Option<(f64, f64)> {
         let (from, speed) = (ball.position[axis], ball.velocity[axis]);
         if self.carried[axis] != 0.0 {

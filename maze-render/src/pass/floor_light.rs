@@ -9,23 +9,35 @@ use crate::shader;
 /// get softer.
 const MAX_SIDE: u32 = 512;
 
-/// Samples a texel: a shadow's edge moves by half a pixel at a time, not by two.
-const N_SAMPLES: u32 = 4;
+/// Width of a shadow's soft edge (maze units), where the map is fine enough for it.
+const SOFTNESS: f32 = 0.05;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 pub(crate) struct FloorLight {
     layout: wgpu::BindGroupLayout,
     sky: wgpu::RenderPipeline,
+    day: wgpu::RenderPipeline,
     walls: wgpu::RenderPipeline,
+    soft: wgpu::RenderPipeline,
     ball: wgpu::RenderPipeline,
 }
 
 /// The map of one maze.
 pub(crate) struct FloorLightMap {
-    samples: wgpu::TextureView,
     pub(crate) view: wgpu::TextureView,
     occlusion: wgpu::BindGroup,
+    size: [u32; 2],
+    /// Set once the sky's part, which stays, has been drawn.
+    has_sky: bool,
+}
+
+impl FloorLightMap {
+    /// Width of a shadow's soft edge (maze units); `uv_from_maze` is the occlusion map's.
+    pub(crate) fn softness(&self, uv_from_maze: &[f32; 4]) -> f32 {
+        let texel = |i: usize| 1.0 / (uv_from_maze[i].abs() * self.size[i] as f32).max(f32::MIN_POSITIVE);
+        SOFTNESS.max(texel(0)).max(texel(1))
+    }
 }
 
 impl FloorLight {
@@ -40,28 +52,40 @@ impl FloorLight {
         });
         let base = PassPipeline {
             groups: &[Some(shared.frame_layout), Some(&layout)],
-            target: Some((FORMAT, N_SAMPLES)),
+            target: Some((FORMAT, 1)),
             ..PassPipeline::new(shader::FLOOR_LIGHT)
         };
         let sky = shared.pipeline(&PassPipeline { entry_points: ["vertex_sky", "fragment_sky"], ..base });
+        let day = shared.pipeline(&PassPipeline {
+            entry_points: ["vertex_sky", "fragment_day"],
+            writes: wgpu::ColorWrites::ALL.difference(wgpu::ColorWrites::GREEN),
+            ..base
+        });
         let walls = shared.pipeline(&PassPipeline {
             entry_points: ["vertex_wall", "fragment_wall"],
             vertices: &[Some(Vertex::LAYOUT)],
             writes: wgpu::ColorWrites::RED,
             ..base
         });
-        let times = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::Dst,
-            dst_factor: wgpu::BlendFactor::Zero,
-            operation: wgpu::BlendOperation::Add,
+        let darker = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Min,
         };
+        let soft = shared.pipeline(&PassPipeline {
+            entry_points: ["vertex_soft", "fragment_soft"],
+            vertices: &[Some(Vertex::LAYOUT)],
+            writes: wgpu::ColorWrites::RED,
+            blend: Some(wgpu::BlendState { color: darker, alpha: darker }),
+            ..base
+        });
         let ball = shared.pipeline(&PassPipeline {
             entry_points: ["vertex_ball", "fragment_ball"],
-            blend: Some(wgpu::BlendState { color: times, alpha: wgpu::BlendComponent::REPLACE }),
+            writes: wgpu::ColorWrites::BLUE | wgpu::ColorWrites::ALPHA,
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             ..base
         });
-        Self { layout, sky, walls, ball }
+        Self { layout, sky, day, walls, soft, ball }
     }
 
     /// A map for a board, over the same part of the plane as its occlusion map of `size` texels.
@@ -77,19 +101,16 @@ impl FloorLight {
             true => (side * MAX_SIDE / longest).max(1),
             false => side.max(1),
         });
-        let make = |label, sample_count, usage| {
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count,
-                dimension: wgpu::TextureDimension::D2,
-                format: FORMAT,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-                view_formats: &[],
-            });
-            texture.create_view(&Default::default())
-        };
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("floor light"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
         let occlusion = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("floor light"),
             layout: &self.layout,
@@ -99,9 +120,10 @@ impl FloorLight {
             ],
         });
         FloorLightMap {
-            samples: make("floor light samples", N_SAMPLES, wgpu::TextureUsages::empty()),
-            view: make("floor light", 1, wgpu::TextureUsages::TEXTURE_BINDING),
+            view: texture.create_view(&Default::default()),
             occlusion,
+            size: [width, height],
+            has_sky: false,
         }
     }
 
@@ -109,35 +131,41 @@ impl FloorLight {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
-        map: &FloorLightMap,
+        map: &mut FloorLightMap,
         mesh: &Mesh,
         with_ball: bool,
     ) {
+        let has_sky = std::mem::replace(&mut map.has_sky, true);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("floor light"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &map.samples,
+                view: &map.view,
                 depth_slice: None,
-                resolve_target: Some(&map.view),
+                resolve_target: None,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::WHITE),
-                    store: wgpu::StoreOp::Discard,
+                    load: if has_sky { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::WHITE) },
+                    store: wgpu::StoreOp::Store,
                 },
             })],
             ..Default::default()
         });
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &map.occlusion, &[]);
-        pass.set_pipeline(&self.sky);
+        pass.set_pipeline(if has_sky { &self.day } else { &self.sky });
         pass.draw(0..3, 0..1);
         pass.set_pipeline(&self.walls);
         mesh.bind(&mut pass);
-        let [wall, top, ..] = &mesh.groups;
-        for group in [wall, top] {
-            if !group.is_empty() {
-                pass.draw_indexed(group.clone(), 0, 0..1);
+        let draw = |pass: &mut wgpu::RenderPass<'_>, part: &std::ops::Range<u32>| {
+            if !part.is_empty() {
+                pass.draw_indexed(part.clone(), 0, 0..1);
             }
-        }
+        };
+        let [wall, top, ..] = &mesh.groups;
+        draw(&mut pass, wall);
+        draw(&mut pass, top);
+        pass.set_pipeline(&self.soft);
+        draw(&mut pass, &mesh.edges);
+        draw(&mut pass, &mesh.corners);
         if with_ball {
             pass.set_pipeline(&self.ball);
             pass.draw(0..4, 0..1);

@@ -56,7 +56,8 @@ pub struct Frame {
     pub board: [f32; 4],
     /// Occlusion map from maze x, y: scale; offset.
     pub occlusion: [f32; 4],
-    /// Blur of the sun's map in its own coordinates x, y; distance to move off a surface before looking; unused.
+    /// Blur of the sun's map in its own coordinates x, y; distance to move off a surface before looking; width
+    /// of a soft edge in the floor's light.
     pub shadow: [f32; 4],
     /// The floor's mean colour, linear; unused.
     pub floor: [f32; 4],
@@ -70,6 +71,8 @@ pub(crate) struct Board {
     pub(crate) uv_from_maze: [f32; 4],
     pub(crate) floor_mean: [f32; 3],
     pub(crate) sun_map_side: u32,
+    /// Of a shadow's edge in the map of the floor's light (maze units).
+    pub(crate) softness: f32,
 }
 
 impl Frame {
@@ -100,7 +103,7 @@ impl Frame {
             goal: marker(scene.goal, scene.goal_glow),
             board: [bounds.min[0], bounds.min[1], bounds.max[0], bounds.max[1]],
             occlusion: board.uv_from_maze,
-            shadow: shadow::blur(&sun_clip_from_maze, board.sun_map_side),
+            shadow: shadow::blur(&sun_clip_from_maze, board.sun_map_side, board.softness),
             floor: with(board.floor_mean.into(), 0.0),
             ghost: ghost::sphere(scene),
         }

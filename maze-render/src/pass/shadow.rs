@@ -16,14 +16,14 @@ const MIN_SOFTNESS_TEXELS: f32 = 1.1;
 /// surface in view makes up within the blur.
 const STEP_OFF_TEXELS: f32 = 2.0;
 
-/// The `shadow` entry of [`super::Frame`] for this view of the sun.
-pub(crate) fn blur(sun_clip_from_maze: &Matrix4<f32>, map_side: u32) -> [f32; 4] {
+/// The `shadow` entry of [`super::Frame`] for this view of the sun; `softness` is of the map of the floor's light.
+pub(crate) fn blur(sun_clip_from_maze: &Matrix4<f32>, map_side: u32, softness: f32) -> [f32; 4] {
     // Clip space spans 2 over the map: half the row's length is map widths per unit.
     let widths_per_unit = [0, 1].map(|row| 0.5 * sun_clip_from_maze.fixed_view::<1, 3>(row, 0).norm());
     let texel = 1.0 / map_side as f32;
     let [u, v] = widths_per_unit.map(|w| (w * SOFTNESS).max(MIN_SOFTNESS_TEXELS * texel));
     let coarsest_texel = texel / widths_per_unit[0].min(widths_per_unit[1]);
-    [u, v, STEP_OFF_TEXELS * coarsest_texel, 0.0]
+    [u, v, STEP_OFF_TEXELS * coarsest_texel, softness]
 }
 
 pub(crate) struct Shadow {

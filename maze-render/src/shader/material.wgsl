@@ -16,6 +16,10 @@ const RIM = 3u;
 // Which of these is drawn: known when the pipeline is made.
 override kind: u32 = 0u;
 
+// Walls are seen at a flat angle: where samples are not spread along it, the level that suits their short side would wash
+// out the bricks on the long one.
+override wall_bias: f32 = -1.2;
+
 @group(2) @binding(0) var<uniform> material: Material;
 @group(2) @binding(1) var surface_texture: texture_2d<f32>;
 @group(2) @binding(2) var surface_sampler: sampler;

@@ -17,7 +17,8 @@ fn vertex(in: Vertex) -> Corner {
 
 @fragment
 fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    let texel = textureSample(surface_texture, surface_sampler, in.uv).rgb;
+    let bias = select(0.0, wall_bias, kind == WALL);
+    let texel = textureSampleBias(surface_texture, surface_sampler, in.uv, bias).rgb;
     let pixel = 0.7 * length(fwidth(in.position.xy)) + 1e-5;
     let p = in.position;
     let v = normalize(frame.eye.xyz - p);
@@ -26,7 +27,7 @@ fn fragment(in: Corner) -> @location(0) vec4<f32> {
     let is_upright = abs(face.z) < 0.5;
     let across = select(vec3(1.0, 0.0, 0.0), vec3(abs(face.y), abs(face.x), 0.0), is_upright);
     let down = select(vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -1.0), is_upright);
-    let lean = textureSample(relief_texture, surface_sampler, in.uv).rg * 2.0 - 1.0;
+    let lean = textureSampleBias(relief_texture, surface_sampler, in.uv, bias).rg * 2.0 - 1.0;
     var n = normalize(face - RELIEF * (across * lean.x + down * lean.y));
     var finish = Finish(texel, material.roughness, vec3(material.reflectance), 1.0);
     var shine = vec3(0.0);

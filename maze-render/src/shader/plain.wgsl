@@ -39,8 +39,7 @@ fn vertex(in: Vertex) -> Corner {
 
 @fragment
 fn fragment(in: Corner) -> @location(0) vec4<f32> {
-    // Walls are seen at a flat angle: the level that suits their short side would wash out the bricks on the long one.
-    let bias = select(0.0, -1.2, kind == WALL);
+    let bias = select(0.0, wall_bias, kind == WALL);
     return shown(textureSampleBias(surface_texture, surface_sampler, in.uv, bias).rgb * in.shade);
 }
 
@@ -65,7 +64,7 @@ fn vertex_floor(in: Vertex) -> FloorCorner {
 fn fragment_floor(in: FloorCorner) -> @location(0) vec4<f32> {
     let texel = textureSample(surface_texture, surface_sampler, in.uv).rgb;
     let light = textureSampleLevel(floor_light, occlusion_sampler, in.map_uv, 0.0);
-    return shown(texel * (in.in_shadow + in.from_sun * (light.r * light.b)) * light.g);
+    return shown(texel * (in.in_shadow + in.from_sun * (light.r * light.b)) * (light.g * light.a));
 }
 
 // A top's edge, drawn over what lies beside it and fading out within a pixel: smooth without further samples.
@@ -125,7 +124,8 @@ fn fragment_mark(in: Mark) -> @location(0) vec4<f32> {
     let start = start_mark(p.xy, pixel);
     let goal = goal_mark(p.xy, pixel);
     let colour = mix(start.colour, goal.colour, goal.cover);
-    let finish = Finish(colour, 0.3, vec3(material.reflectance), light.g * light.g);
+    let sky = light.g * light.a;
+    let finish = Finish(colour, 0.3, vec3(material.reflectance), sky * sky);
     let v = normalize(frame.eye.xyz - p);
     let seen = without_glint(vec3(0.0, 0.0, 1.0), v, finish, light.r * light.b) + goal.shine;
     // The halo only adds: it covers as much as it is bright.
