@@ -42,8 +42,7 @@ pub struct Case {
     tile: Layout,
     side: usize,
     faces: Vec<WallFace>,
-    planes: Arc<SortedPlanes>,
-    rectangles: Vec<Bounds>,
+    board: Board,
 }
 
 /// A circle of [`RADIUS`] on a path: what does it touch first, if anything?
@@ -81,12 +80,12 @@ impl Case {
         if n_tiles == 0 {
             return Err(BenchError::set_up("a maze of no tile"));
         }
+        let planes = Arc::new(SortedPlanes::new([]).map_err(BenchError::set_up)?);
         let mut case = Self {
             side: tile * n_tiles,
             tile: layout,
             faces: Vec::new(),
-            planes: Arc::new(SortedPlanes::new([]).map_err(BenchError::set_up)?),
-            rectangles: Vec::new(),
+            board: Board::from_planes(&planes),
         };
         for axis in [0, 1] {
             for line in 1..case.n_blocks() {
@@ -94,8 +93,7 @@ impl Case {
             }
         }
         let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?;
-        case.planes = Arc::new(planes);
-        case.rectangles = Board::from_planes(&case.planes).rectangles().to_vec();
+        case.board = Board::from_planes(&Arc::new(planes));
         Ok(case)
     }
 
@@ -116,12 +114,17 @@ impl Case {
 
     /// The faces, sorted.
     pub fn planes(&self) -> &Arc<SortedPlanes> {
-        &self.planes
+        self.board.planes()
     }
 
     /// The walls as solid rectangles, as long as they go on: what a user would hand to a physics engine.
     pub fn rectangles(&self) -> &[Bounds] {
-        &self.rectangles
+        self.board.rectangles()
+    }
+
+    /// The same walls in every form that an engine takes.
+    pub fn board(&self) -> &Board {
+        &self.board
     }
 
     /// Blocks along each side: walls and posts at even places, cells and passages at odd ones.
@@ -216,8 +219,8 @@ impl Case {
     /// None that this maze and this ball give; the engine's own.
     pub fn coherent(&self, name: &'static str, n: usize) -> Result<QuerySet, BenchError> {
         let (spec, ball) = (spec(), Ball::at(self.middle()));
-        let mut engine =
-            Continuous::new(Arc::clone(&self.planes), spec, ball, TICK_S).map_err(BenchError::set_up)?;
+        let mut engine = Continuous::new(Arc::clone(self.board.planes()), spec, ball, TICK_S)
+            .map_err(BenchError::set_up)?;
         let mut queries = Vec::with_capacity(n);
         for pull in turning_pulls().into_iter().cycle().take(n) {
             let before = engine.ball();

@@ -13,7 +13,6 @@ use super::case::{Case, TICK_S, spec, turning_pulls};
 use super::figures::{Figures, Group};
 use super::measure::{BenchError, Plan};
 use super::paired::{Runner, Series, time};
-use crate::board::Board;
 use crate::engine::Walls;
 use maze_core::{Ball, BallSpec, Continuous, Engine, SortedPlanes};
 use movers::{boxes, crowd, exact, exact_on_2_threads, published, rapier, without_directories};
@@ -42,8 +41,6 @@ const MOST_COLLIDERS: usize = 1_200_000;
 pub struct Course<'a> {
     /// The maze.
     pub case: &'a Case,
-    /// The same walls, as rapier gets them.
-    pub board: Board,
     /// What the ball is made of.
     pub spec: BallSpec,
     /// Each place is a ball.
@@ -188,8 +185,7 @@ impl Question {
 impl<'a> Course<'a> {
     /// One ball at rest in the middle of the maze.
     pub fn middle(case: &'a Case) -> Self {
-        let board = Board::from_planes(case.planes());
-        Self { case, board, spec: spec(), starts: vec![Ball::at(case.middle())] }
+        Self { case, spec: spec(), starts: vec![Ball::at(case.middle())] }
     }
 
     fn n_planes(&self) -> usize {
@@ -198,7 +194,7 @@ impl<'a> Course<'a> {
 
     /// Whether the maze is not too large for a contender.
     fn holds(&self, contender: &Contender) -> bool {
-        !contender.is_separate || self.board.rectangles().len() <= MOST_COLLIDERS
+        !contender.is_separate || self.case.rectangles().len() <= MOST_COLLIDERS
     }
 
     /// Many balls all over the maze, in an order that no prefetcher guesses, which have rolled for a while.

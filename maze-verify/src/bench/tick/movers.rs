@@ -154,7 +154,7 @@ impl Mover for Steps {
 }
 
 fn world(course: &Course, walls: Walls) -> Result<RapierEngine, BenchError> {
-    let mut engine = RapierEngine::new(&course.board, walls, course.spec, course.starts[0], TICK_S)
+    let mut engine = RapierEngine::new(course.case.board(), walls, course.spec, course.starts[0], TICK_S)
         .map_err(BenchError::set_up)?;
     // Makes the trees, which is no part of a tick.
     engine.step(Vector2::zeros());
