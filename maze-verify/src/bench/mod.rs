@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Case (a maze, its walls in every form) -> queries -> contenders -> agreement -> paired timing -> Figures: table, csv, chart
+//!                                        -> tick: Course -> Movers -> agree -> Question ->
 //! ```
 //!
 //! Nothing is timed before all contenders have given the same answers. See docs/verification.md, "The benchmark".
