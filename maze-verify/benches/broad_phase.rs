@@ -4,11 +4,12 @@
 //! contenders have answered ten thousand queries of the kind; what differs and may is printed, what may not ends the run.
 //! `-- 'rolling ball'` or `-- '/1012$'` chooses.
 
+use cpu_time::ProcessTime;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use maze_verify::bench::agreement::check;
 use maze_verify::bench::search::{CONTENDERS, in_turn};
 use maze_verify::bench::{BenchError, Case, Plan};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 fn first_touch(criterion: &mut Criterion) {
     if let Err(error) = all_sizes(criterion) {
@@ -44,7 +45,7 @@ fn all_sizes(criterion: &mut Criterion) -> Result<(), BenchError> {
                 let mut ask = in_turn(search.as_mut(), &set.queries);
                 group.bench_function(BenchmarkId::new(contender.name, n_planes), |bencher| {
                     bencher.iter_custom(|n| {
-                        let start = Instant::now();
+                        let start = ProcessTime::now();
                         std::hint::black_box(ask(usize::try_from(n).unwrap_or(usize::MAX)));
                         start.elapsed()
                     });

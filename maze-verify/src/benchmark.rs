@@ -3,7 +3,7 @@
 use crate::{BadInput, files};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use maze_verify::bench::{Plan, measure, search};
+use maze_verify::bench::{BenchError, Plan, measure, n_steps, search, tick};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -32,18 +32,18 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<bool, BadInput> {
     if let Some(out) = &arguments.out {
         files::make_directory(out)?;
     }
-    let bar = ProgressBar::new(0);
+    let bar = ProgressBar::new((n_steps(&plan) + tick::n_steps(&plan)) as u64);
     // The template is ours and known to be good; a plain bar is no harm either.
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}") {
         bar.set_style(style);
     }
-    let on_step = |what: &str, n_steps: usize| {
-        bar.set_length(n_steps as u64);
+    let on_step = |what: &str| {
         bar.set_message(what.to_owned());
         bar.inc(1);
     };
-    let figures =
-        measure(&plan, &search::CONTENDERS, &on_step).map_err(|error| BadInput(error.to_string()))?;
+    let bad = |error: BenchError| BadInput(error.to_string());
+    let mut figures = measure(&plan, &search::CONTENDERS, &on_step).map_err(bad)?;
+    tick::measure(&plan, &mut figures, &on_step).map_err(bad)?;
     bar.finish_and_clear();
     if let Some(out) = &arguments.out {
         files::write_whole(&out.join("bench.csv"), figures.csv().as_bytes())?;

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_verify::bench::search::CONTENDERS;
-use maze_verify::bench::{Agreement, Case, Contender, Figures, Plan, Query, REFERENCE, Search, measure};
+use maze_verify::bench::{Agreement, Case, Contender, Figures, Group, Plan, Query, REFERENCE, Search};
+use maze_verify::bench::{measure, tick};
 use std::process::Command;
 use std::time::Duration;
 
@@ -18,7 +19,7 @@ fn tiny() -> Plan {
 }
 
 fn figures(contenders: &[Contender]) -> Figures {
-    measure(&tiny(), contenders, &|_, _| {}).unwrap()
+    measure(&tiny(), contenders, &|_| {}).unwrap()
 }
 
 #[test]
@@ -27,10 +28,10 @@ fn all_take_part_and_agree() {
     assert!(figures.held(), "{}", figures.table());
     let (table, csv) = (figures.table(), figures.csv());
     let mut lines = csv.lines().skip_while(|line| line.starts_with('#'));
-    assert_eq!(lines.next(), Some("question,n_planes,hit_part,contender,round,ns,ratio"));
+    assert_eq!(lines.next(), Some("question,n_planes,touches,contender,round,ns,ratio"));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     for group in &figures.groups {
-        assert!(group.hit_part.is_none_or(|part| 0.0 < part), "{}", group.question);
+        assert!(group.touches.is_none_or(|part| 0.0 < part), "{}", group.question);
         for contender in &CONTENDERS {
             let of = |row: &&Vec<&str>| row[0] == group.question && row[3] == contender.name;
             let rounds: Vec<&Vec<&str>> = rows.iter().filter(of).collect();
@@ -44,8 +45,22 @@ fn all_take_part_and_agree() {
         }
     }
     assert!(rows.iter().all(|row| row.len() == 7));
-    let misses = figures.groups.iter().filter_map(|group| group.hit_part).filter(|part| *part < 1.0);
+    let misses = figures.groups.iter().filter_map(|group| group.touches).filter(|part| *part < 1.0);
     assert!(0 < misses.count(), "both touches and none");
+}
+
+#[test]
+fn all_engines_tick_and_agree() {
+    let mut figures = figures(&[]);
+    tick::measure(&tiny(), &mut figures, &|_| {}).unwrap();
+    assert!(figures.held(), "{}", figures.table());
+    for contender in tick::ROLLING {
+        let is_timed = |group: &Group| group.ns(contender.name).is_some_and(|ns| 0.0 < ns.median);
+        assert!(figures.groups.iter().any(is_timed), "{}", contender.name);
+        assert!(figures.table().contains(contender.name));
+    }
+    let csv = figures.csv();
+    assert!(csv.lines().skip_while(|line| line.starts_with('#')).all(|line| line.split(',').count() == 7));
 }
 
 /// Sorted planes that answer one fast query, the first they meet, a little too late.
@@ -120,7 +135,7 @@ fn the_program_prints_a_table_and_writes_its_files() {
     assert!(read("bench.csv").contains("\nrandom 0.01,112,"));
     assert_eq!(
         read("agreement.csv").lines().next(),
-        Some("contender,queries,n_planes,asked,different,apart,missed,worst_units,holds")
+        Some("contender,queries,n_planes,asked,different,apart,apart_by_units,missed,worst_units,holds")
     );
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 3, "nothing half-written beside");
 

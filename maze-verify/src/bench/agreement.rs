@@ -29,7 +29,7 @@ pub struct Comparison {
     pub contender: &'static str,
     /// What is asked of them.
     pub agreement: Agreement,
-    /// To which queries.
+    /// To which queries, or of which question about ticks.
     pub queries: &'static str,
     /// In a maze of so many planes.
     pub n_planes: usize,
@@ -37,11 +37,13 @@ pub struct Comparison {
     pub n_asked: usize,
     /// Not the same to the bit.
     pub n_different: usize,
-    /// Both touch something, more than [`APART`] from one another.
+    /// What counts as apart (units).
+    pub limit: f64,
+    /// Both answer, farther apart than that.
     pub n_apart: usize,
     /// One of them touches something and the other does not.
     pub n_missed: usize,
-    /// Largest distance between two touches along the way (units).
+    /// Largest distance between two answers (units).
     pub worst: f64,
     /// Whether it is what was asked.
     pub holds: bool,
@@ -65,8 +67,8 @@ pub fn check(built: &mut [Built], n_planes: usize, set: &QuerySet, n: usize) -> 
         compare(contender.name, contender.agreement, n_planes, set, [&truth, &given])
     });
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let hit_part = truth.iter().flatten().count() as f64 / truth.len().max(1) as f64;
-    (comparisons.collect(), hit_part)
+    let touches = truth.iter().flatten().count() as f64 / truth.len().max(1) as f64;
+    (comparisons.collect(), touches)
 }
 
 /// Compares answers.
@@ -85,6 +87,7 @@ fn compare(
         queries,
         n_planes,
         n_asked,
+        limit: APART,
         n_different: 0,
         n_apart: 0,
         n_missed: 0,

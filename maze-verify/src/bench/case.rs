@@ -42,8 +42,7 @@ pub struct Case {
     tile: Layout,
     side: usize,
     faces: Vec<WallFace>,
-    planes: Arc<SortedPlanes>,
-    rectangles: Vec<Bounds>,
+    board: Board,
 }
 
 /// A circle of [`RADIUS`] on a path: what does it touch first, if anything?
@@ -81,12 +80,12 @@ impl Case {
         if n_tiles == 0 {
             return Err(BenchError::set_up("a maze of no tile"));
         }
+        let planes = Arc::new(SortedPlanes::new([]).map_err(BenchError::set_up)?);
         let mut case = Self {
             side: tile * n_tiles,
             tile: layout,
             faces: Vec::new(),
-            planes: Arc::new(SortedPlanes::new([]).map_err(BenchError::set_up)?),
-            rectangles: Vec::new(),
+            board: Board::from_planes(&planes),
         };
         for axis in [0, 1] {
             for line in 1..case.n_blocks() {
@@ -94,8 +93,7 @@ impl Case {
             }
         }
         let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?;
-        case.planes = Arc::new(planes);
-        case.rectangles = Board::from_planes(&case.planes).rectangles().to_vec();
+        case.board = Board::from_planes(&Arc::new(planes));
         Ok(case)
     }
 
@@ -116,12 +114,17 @@ impl Case {
 
     /// The faces, sorted.
     pub fn planes(&self) -> &Arc<SortedPlanes> {
-        &self.planes
+        self.board.planes()
     }
 
     /// The walls as solid rectangles, as long as they go on: what a user would hand to a physics engine.
     pub fn rectangles(&self) -> &[Bounds] {
-        &self.rectangles
+        self.board.rectangles()
+    }
+
+    /// The same walls in every form that an engine takes.
+    pub fn board(&self) -> &Board {
+        &self.board
     }
 
     /// Blocks along each side: walls and posts at even places, cells and passages at odd ones.
@@ -177,6 +180,19 @@ impl Case {
         Vector2::new(column, row).map(|index| line_at(2 * index + 1) + extrude::CORRIDOR / 2.0)
     }
 
+    /// The middle of a cell in the middle of the maze: the same place of the tile in all sizes.
+    pub fn middle(&self) -> Vector2<f64> {
+        let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
+        self.centre(middle, middle)
+    }
+
+    /// The middles of so many cells, far from one another and in an order that no prefetcher guesses.
+    pub fn scattered(&self, n: usize) -> Vec<Vector2<f64>> {
+        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+        let mut index = || below(&mut rng, self.side);
+        (0..n).map(|_| self.centre(index(), index())).collect()
+    }
+
     /// Circles anywhere in free cells that move so far (units) in any direction within 1 s.
     pub fn random(&self, name: &'static str, step: f64, n: usize) -> QuerySet {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
@@ -202,12 +218,9 @@ impl Case {
     /// # Errors
     /// None that this maze and this ball give; the engine's own.
     pub fn coherent(&self, name: &'static str, n: usize) -> Result<QuerySet, BenchError> {
-        let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
-        let spec = BallSpec { radius, ..BallSpec::default() };
-        let middle = self.side / self.tile.width() / 2 * self.tile.width() + self.tile.width() / 2;
-        let ball = Ball::at(self.centre(middle, middle));
-        let mut engine =
-            Continuous::new(Arc::clone(&self.planes), spec, ball, TICK_S).map_err(BenchError::set_up)?;
+        let (spec, ball) = (spec(), Ball::at(self.middle()));
+        let mut engine = Continuous::new(Arc::clone(self.board.planes()), spec, ball, TICK_S)
+            .map_err(BenchError::set_up)?;
         let mut queries = Vec::with_capacity(n);
         for pull in turning_pulls().into_iter().cycle().take(n) {
             let before = engine.ball();
@@ -222,6 +235,12 @@ impl Case {
         }
         Ok(QuerySet { name, queries })
     }
+}
+
+/// A ball of [`RADIUS`], else as in the game.
+pub fn spec() -> BallSpec {
+    let radius = Radius::new(RADIUS).unwrap_or(BallSpec::RADIUS); // the constant is one
+    BallSpec { radius, ..BallSpec::default() }
 }
 
 /// A pull of 1 unit/s² that turns round once in 10 s, tick by tick.

@@ -33,9 +33,9 @@ impl Figures {
     /// An SVG file that can be read by itself, in light and in dark.
     #[allow(clippy::cast_precision_loss, reason = "a handful of panels")]
     pub fn chart(&self) -> String {
-        let names =
-            distinct(self.groups.iter().flat_map(|group| group.series.iter().map(|series| series.name)));
-        let questions = self.questions();
+        let questions = self.charted();
+        let shown = self.groups.iter().filter(|group| questions.contains(&group.question));
+        let names = distinct(shown.flat_map(|group| group.series.iter().map(|series| series.name)));
         let n_rows = questions.len().div_ceil(N_ACROSS);
         let across = N_ACROSS.min(questions.len().max(1)) as f64;
         let width = (across * (WIDTH + GAP) + GAP).max(3.0 * LEGEND_ENTRY + 2.0 * GAP);
@@ -72,6 +72,17 @@ impl Figures {
             );
         }
         svg + "</svg>\n"
+    }
+
+    /// Questions asked in mazes of several sizes; all of them where there is but one size.
+    fn charted(&self) -> Vec<&'static str> {
+        let n_sizes =
+            |question: &&str| self.groups.iter().filter(|group| group.question == *question).count();
+        let mut questions = self.questions();
+        if questions.iter().any(|question| 1 < n_sizes(question)) {
+            questions.retain(|question| 1 < n_sizes(question));
+        }
+        questions
     }
 
     fn panel(&self, question: &str, names: &[&'static str]) -> Plot {

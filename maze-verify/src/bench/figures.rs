@@ -15,8 +15,8 @@ pub struct Group {
     pub question: &'static str,
     /// Of the maze.
     pub n_planes: usize,
-    /// Part of the queries that touch something.
-    pub hit_part: Option<f64>,
+    /// Touches in answer to a query or within a tick, on average.
+    pub touches: Option<f64>,
     /// One a contender; the others' times are told as multiples of the first's.
     pub series: Vec<Series>,
 }
@@ -86,15 +86,15 @@ impl Figures {
         for line in self.machine.lines() {
             let _ = writeln!(text, "# {line}");
         }
-        text += "question,n_planes,hit_part,contender,round,ns,ratio\n";
+        text += "question,n_planes,touches,contender,round,ns,ratio\n";
         for group in &self.groups {
-            let hit_part = group.hit_part.map_or_else(String::new, |part| part.to_string());
+            let touches = group.touches.map_or_else(String::new, |part| part.to_string());
             let reference = group.series.first().map_or(&[][..], |series| &series.ns);
             for series in &group.series {
                 for (round, (ns, reference)) in series.ns.iter().zip(reference).enumerate() {
                     let _ = writeln!(
                         text,
-                        "{},{},{hit_part},{},{round},{ns:.3},{:.4}",
+                        "{},{},{touches},{},{round},{ns:.3},{:.4}",
                         group.question,
                         group.n_planes,
                         series.name,
@@ -110,14 +110,15 @@ impl Figures {
 impl Figures {
     /// How the answers compare, one line a contender, kind of query and size.
     pub fn agreement_csv(&self) -> String {
-        let mut text =
-            String::from("contender,queries,n_planes,asked,different,apart,missed,worst_units,holds\n");
+        let mut text = String::from(
+            "contender,queries,n_planes,asked,different,apart,apart_by_units,missed,worst_units,holds\n",
+        );
         for found in &self.comparisons {
             let Comparison { contender, queries, n_planes, n_asked, .. } = found;
-            let Comparison { n_different, n_apart, n_missed, worst, holds, .. } = found;
+            let Comparison { n_different, n_apart, limit, n_missed, worst, holds, .. } = found;
             let _ = writeln!(
                 text,
-                "{contender},{queries},{n_planes},{n_asked},{n_different},{n_apart},{n_missed},{worst:e},{holds}"
+                "{contender},{queries},{n_planes},{n_asked},{n_different},{n_apart},{limit},{n_missed},{worst:e},{holds}"
             );
         }
         text

@@ -6,7 +6,8 @@ use super::figures::{Figures, Group};
 use super::machine::Machine;
 use super::paired::{Runner, Series, time};
 use super::search::{Contender, in_turn};
-use std::time::{Duration, Instant};
+use cpu_time::ProcessTime;
+use std::time::Duration;
 
 /// Names of the random queries, one a length of [`STEPS`].
 const RANDOM: [&str; STEPS.len()] = ["random 0.01", "random 0.1", "random 1", "random 10"];
@@ -25,6 +26,8 @@ const BUILT_AGAIN: usize = 20_000;
 pub struct Plan {
     /// Cells along a tile and tiles along a maze, one pair a size.
     pub sizes: Vec<[usize; 2]>,
+    /// The same for the questions about whole ticks.
+    pub tick_sizes: Vec<[usize; 2]>,
     /// Queries of each kind that all contenders answer before any is timed.
     pub n_checked: usize,
     /// Queries of each kind that are asked in turn: so many that caches do not hold what the last round has read.
@@ -38,8 +41,10 @@ pub struct Plan {
 impl Plan {
     /// Under a minute: about 10², 10³, 10⁴, 10⁵ and 10⁶ planes.
     pub fn quick() -> Self {
+        let sizes = vec![[9, 1], [27, 1], [27, 3], [27, 10], [27, 32]];
         Self {
-            sizes: vec![[9, 1], [27, 1], [27, 3], [27, 10], [27, 32]],
+            tick_sizes: sizes.clone(),
+            sizes,
             n_checked: 10_000,
             n_queries: 100_000,
             n_rounds: 5,
@@ -50,8 +55,11 @@ impl Plan {
     /// Minutes: up to about 10⁷ planes.
     pub fn full() -> Self {
         let mut sizes = Self::quick().sizes;
+        let mut tick_sizes = sizes.clone();
         sizes.push([27, 100]);
-        Self { sizes, n_rounds: 25, batch: Duration::from_millis(20), ..Self::quick() }
+        // In between, a maze of about 10⁶ walls: as many colliders, for who takes each as one.
+        tick_sizes.extend([[27, 50], [27, 100]]);
+        Self { sizes, tick_sizes, n_rounds: 25, batch: Duration::from_millis(20), ..Self::quick() }
     }
 }
 
@@ -60,7 +68,9 @@ impl Plan {
     #[must_use]
     pub fn up_to(mut self, n_planes: usize) -> Self {
         // 1.42 planes a cell, of tiles as large as these.
-        self.sizes.retain(|[tile, n_tiles]| 142 * (tile * n_tiles).pow(2) / 100 <= n_planes);
+        for sizes in [&mut self.sizes, &mut self.tick_sizes] {
+            sizes.retain(|[tile, n_tiles]| 142 * (tile * n_tiles).pow(2) / 100 <= n_planes);
+        }
         self
     }
 
@@ -91,31 +101,31 @@ impl BenchError {
     }
 }
 
-/// Measures all; `on_step` hears what comes next and how many steps there are.
+/// How often [`measure`] tells what comes next.
+pub fn n_steps(plan: &Plan) -> usize {
+    plan.sizes.len() * (1 + RANDOM.len() + 1)
+}
+
+/// Measures all searches; `on_step` hears what comes next.
 ///
 /// Contenders whose answers are wrong are timed all the same; [`Figures::held`] tells, and the table names them.
 ///
 /// # Errors
 /// A maze, a structure or an engine that cannot be made.
-pub fn measure(
-    plan: &Plan,
-    contenders: &[Contender],
-    on_step: &dyn Fn(&str, usize),
-) -> Result<Figures, BenchError> {
+pub fn measure(plan: &Plan, contenders: &[Contender], on_step: &dyn Fn(&str)) -> Result<Figures, BenchError> {
     let mut figures = Figures { machine: Machine::here(), groups: Vec::new(), comparisons: Vec::new() };
-    let n_steps = plan.sizes.len() * (1 + RANDOM.len() + 1);
     for [tile, n_tiles] in &plan.sizes {
         let case = Case::new(*tile, *n_tiles)?;
         let n_planes = case.planes().len();
-        on_step(&format!("building, {n_planes} planes"), n_steps);
+        on_step(&format!("building, {n_planes} planes"));
         let (mut built, group_of_builds) = build_all(plan, &case, contenders)?;
         figures.groups.push(group_of_builds);
         for set in plan.query_sets(&case)? {
-            on_step(&format!("{}, {n_planes} planes", set.name), n_steps);
-            let (comparisons, hit_part) = check(&mut built, n_planes, &set, plan.n_checked);
+            on_step(&format!("{}, {n_planes} planes", set.name));
+            let (comparisons, touches) = check(&mut built, n_planes, &set, plan.n_checked);
             figures.comparisons.extend(comparisons);
             let series = time_all(plan, &mut built, &set);
-            figures.groups.push(Group { question: set.name, n_planes, hit_part: Some(hit_part), series });
+            figures.groups.push(Group { question: set.name, n_planes, touches: Some(touches), series });
         }
     }
     Ok(figures)
@@ -136,13 +146,13 @@ fn build_all<'a>(
     for _ in 0..n_rounds {
         built.clear();
         for (contender, series) in taking_part().zip(&mut series) {
-            let start = Instant::now();
+            let start = ProcessTime::now();
             built.push((contender, (contender.build)(case)?));
             #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
             series.ns.push(start.elapsed().as_secs_f64() * 1.0e9 / n_planes.max(1) as f64);
         }
     }
-    Ok((built, Group { question: BUILD, n_planes, hit_part: None, series }))
+    Ok((built, Group { question: BUILD, n_planes, touches: None, series }))
 }
 
 /// All in turn on the same queries.

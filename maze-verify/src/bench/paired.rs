@@ -1,7 +1,8 @@
 //! Timing in turn: what disturbs the machine for a while disturbs all alike.
 
+use cpu_time::ProcessTime;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Least number of operations in a batch: what they cost may differ much.
 const LEAST_IN_BATCH: usize = 16;
@@ -19,7 +20,7 @@ pub struct Runner<'a> {
 pub struct Series {
     /// As in the table.
     pub name: &'static str,
-    /// An operation (ns), one figure a round.
+    /// An operation (ns of processor time), one figure a round.
     pub ns: Vec<f64>,
 }
 
@@ -53,8 +54,9 @@ fn batch_size(runner: &mut Runner, batch: Duration) -> usize {
     }
 }
 
+/// Processor time, of all threads together: what a batch takes must not depend on who else wants the processor meanwhile.
 fn ns_each(runner: &mut Runner, size: usize) -> f64 {
-    let start = Instant::now();
+    let start = ProcessTime::now();
     black_box((runner.run)(black_box(size)));
     start.elapsed().as_secs_f64() * 1.0e9 / to_f64(size)
 }

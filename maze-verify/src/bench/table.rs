@@ -1,6 +1,6 @@
 //! The table on the terminal.
 
-use super::agreement::{APART, Agreement, Comparison};
+use super::agreement::{Agreement, Comparison};
 use super::figures::{Figures, Group, Spread, distinct};
 use crate::report::number::plain;
 use std::fmt::Write;
@@ -19,7 +19,12 @@ impl Figures {
         for question in self.questions() {
             self.block(question, &mut text);
         }
-        self.agreement_block(&mut text);
+        let mut rest = &self.comparisons[..];
+        while let Some(first) = rest.first() {
+            let (block, others) = rest.split_at(rest.partition_point(|found| found.limit == first.limit));
+            agreement_block(block, first.limit, &mut text);
+            rest = others;
+        }
         text
     }
 
@@ -34,70 +39,66 @@ impl Figures {
             let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
         };
         line("planes", &|group| group.n_planes.to_string());
-        if groups.iter().any(|group| group.hit_part.is_some()) {
-            line("touch something", &|group| {
-                group.hit_part.map_or_else(String::new, |part| format!("{:.1} %", 100.0 * part))
-            });
+        if groups.iter().any(|group| group.touches.is_some()) {
+            line("touches", &|group| group.touches.map_or_else(String::new, plain));
         }
         line(reference, &|group| shown(group.ns(reference)));
         for name in others {
             line(name, &|group| shown(group.ratio(name)));
         }
     }
+}
 
-    /// A line a contender, a column a kind of query: over all sizes together.
-    fn agreement_block(&self, text: &mut String) {
-        let queries = distinct(self.comparisons.iter().map(|found| found.queries));
-        let contenders = distinct(self.comparisons.iter().map(|found| found.contender));
+/// A line a contender, a column a kind of query: over all sizes together, what is apart by more than the same limit (units).
+fn agreement_block(comparisons: &[Comparison], limit: f64, text: &mut String) {
+    let queries = distinct(comparisons.iter().map(|found| found.queries));
+    let contenders = distinct(comparisons.iter().map(|found| found.contender));
+    let _ = writeln!(
+        text,
+        "\nAnswers beside those of the first contender, all sizes together: more than {limit} units off, missed or \
+         touched alone, worst (units)"
+    );
+    let heads: Vec<String> = queries.iter().map(|queries| format!("{queries:>CELL$}")).collect();
+    let _ = writeln!(text, "  {:<NAME$}{}", "", heads.concat());
+    for name in contenders {
+        let of = |queries: &str| {
+            let all = comparisons.iter().filter(|found| found.contender == name);
+            format!("{:>CELL$}", told(&all.filter(|found| found.queries == queries).collect::<Vec<_>>()))
+        };
+        let cells: Vec<String> = queries.iter().map(|queries| of(queries)).collect();
+        let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
+    }
+    for (names, reason) in reasons(comparisons) {
+        let _ = writeln!(text, "  {names}: {reason}");
+    }
+    for found in comparisons.iter().filter(|found| !found.holds) {
         let _ = writeln!(
             text,
-            "\nAnswers beside those of the first contender, all sizes together: more than {APART} units off, missed or \
-             touched alone, worst (units)"
+            "WRONG: {}, {}, {} planes: of {} answers {} differ, {} by more than {limit} units (worst {}), {} missed",
+            found.contender,
+            found.queries,
+            found.n_planes,
+            found.n_asked,
+            found.n_different,
+            found.n_apart,
+            plain(found.worst),
+            found.n_missed,
         );
-        let heads: Vec<String> = queries.iter().map(|queries| format!("{queries:>CELL$}")).collect();
-        let _ = writeln!(text, "  {:<NAME$}{}", "", heads.concat());
-        for name in contenders {
-            let of = |queries: &str| {
-                let all = self.comparisons.iter().filter(|found| found.contender == name);
-                format!("{:>CELL$}", told(&all.filter(|found| found.queries == queries).collect::<Vec<_>>()))
-            };
-            let cells: Vec<String> = queries.iter().map(|queries| of(queries)).collect();
-            let _ = writeln!(text, "  {name:<NAME$}{}", cells.concat());
-        }
-        for (name, reason) in self.reasons() {
-            let _ = writeln!(text, "  {name}: {reason}");
-        }
-        for found in self.comparisons.iter().filter(|found| !found.holds) {
-            let _ = writeln!(
-                text,
-                "WRONG: {}, {}, {} planes: of {} answers {} differ, {} by more than {APART} units (worst {}), {} missed",
-                found.contender,
-                found.queries,
-                found.n_planes,
-                found.n_asked,
-                found.n_different,
-                found.n_apart,
-                plain(found.worst),
-                found.n_missed,
-            );
-        }
     }
 }
 
-impl Figures {
-    /// Why answers may differ: the contenders with each reason.
-    fn reasons(&self) -> Vec<(String, &'static str)> {
-        let reason = |found: &Comparison| match found.agreement {
-            Agreement::Exact => None,
-            Agreement::Mostly { reason, .. } | Agreement::OtherQuestion(reason) => Some(reason),
-        };
-        let names = |reason_of_all: &'static str| {
-            let found = self.comparisons.iter().filter(|found| reason(found) == Some(reason_of_all));
-            distinct(found.map(|found| found.contender)).join(", ")
-        };
-        let reasons = distinct(self.comparisons.iter().filter_map(reason));
-        reasons.into_iter().map(|reason| (names(reason), reason)).collect()
-    }
+/// Why answers may differ: the contenders with each reason.
+fn reasons(comparisons: &[Comparison]) -> Vec<(String, &'static str)> {
+    let reason = |found: &Comparison| match found.agreement {
+        Agreement::Exact => None,
+        Agreement::Mostly { reason, .. } | Agreement::OtherQuestion(reason) => Some(reason),
+    };
+    let names = |reason_of_all: &'static str| {
+        let found = comparisons.iter().filter(|found| reason(found) == Some(reason_of_all));
+        distinct(found.map(|found| found.contender)).join(", ")
+    };
+    let reasons = distinct(comparisons.iter().filter_map(reason));
+    reasons.into_iter().map(|reason| (names(reason), reason)).collect()
 }
 
 /// What is off in several comparisons together.

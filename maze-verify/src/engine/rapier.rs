@@ -11,6 +11,8 @@ use rapier3d::prelude::*;
 pub enum Walls {
     /// A cuboid for each rectangle of the board.
     Cuboids,
+    /// The same cuboids as one compound shape: what a large maze is best given as.
+    Compound,
     /// One triangle mesh, with the contacts at its inner edges mended ([`TriMeshFlags::FIX_INTERNAL_EDGES`]).
     TriangleMesh,
 }
@@ -25,7 +27,11 @@ pub struct RapierEngine {
     collider: ColliderHandle,
     spec: BallSpec,
     tick_s: f64,
+    pair_events: Vec<BroadPhasePairEvent>,
 }
+
+/// The group of colliders that balls are in, and walls are in all.
+const BALLS: Group = Group::GROUP_2;
 
 /// Half the height of walls (units): any height that the ball's centre stays well inside of.
 const HALF_HEIGHT: f32 = 0.5;
@@ -48,21 +54,54 @@ impl RapierEngine {
         for wall in colliders(board, walls, HALF_HEIGHT, 0.0)? {
             world.insert_collider(wall.restitution(restitution).friction(0.0), None);
         }
-        let body = RigidBodyBuilder::dynamic()
-            .translation(in_plane(ball.position))
-            .linvel(in_plane(ball.velocity))
-            .enabled_translations(true, true, false)
-            .lock_rotations()
-            .can_sleep(false);
-        let shape = ColliderBuilder::ball(to_f32(spec.radius.units())).restitution(restitution).friction(0.0);
+        let (body, shape) = ball_builders(&spec, ball);
         let (body, collider) = world.insert(body, shape);
-        Ok(Self { world, body, collider, spec, tick_s })
+        Ok(Self { world, body, collider, spec, tick_s, pair_events: Vec::new() })
     }
 
     /// How far off a wall its contacts begin (units), rapier's margin for fast bodies; 0.02 as it comes. At a corner such an
     /// early contact has the direction of a touch that has not happened yet.
     pub fn set_prediction_distance(&mut self, units: f64) {
         self.world.integration_parameters.normalized_prediction_distance = to_f32(units);
+    }
+
+    /// Whether fast balls are stopped at the first fixed wall in their way, as rapier does unless told otherwise. Without it
+    /// they pass through.
+    pub fn set_ccd(&mut self, is_on: bool) {
+        let usual = IntegrationParameters::default().max_ccd_substeps;
+        self.world.integration_parameters.max_ccd_substeps = if is_on { usual } else { 0 };
+    }
+
+    /// rapier's step under an acceleration (units/s²) and nothing else: [`Engine::tick`] without a look at what happened.
+    /// Needs a finite acceleration.
+    pub fn step(&mut self, acceleration: Vector2<f64>) {
+        self.world.gravity = in_plane(acceleration * self.spec.rolling);
+        self.world.step();
+    }
+
+    /// Adds balls of the same kind, which meet the walls but neither one another nor the first ball: [`Self::step`] moves
+    /// them all.
+    ///
+    /// # Errors
+    /// A position or velocity that is not finite.
+    pub fn add_balls(&mut self, balls: impl Iterator<Item = Ball>) -> Result<(), OutOfRange> {
+        for ball in balls {
+            let (body, collider) = ball_builders(&self.spec, ball.checked()?);
+            self.world.insert(body, collider);
+        }
+        Ok(())
+    }
+
+    /// Puts the ball's collider somewhere and updates rapier's broad phase alone; how many pairs of boxes came or went.
+    pub fn update_broad_phase(&mut self, centre: Vector2<f64>) -> usize {
+        let Self { world, pair_events, .. } = self;
+        if let Some(collider) = world.colliders.get_mut(self.collider) {
+            collider.set_translation(in_plane(centre));
+        }
+        pair_events.clear();
+        let (parameters, moved) = (&world.integration_parameters, [self.collider]);
+        world.broad_phase.update(parameters, &world.colliders, &world.bodies, &moved, &[], pair_events);
+        pair_events.len()
     }
 
     /// How deep the ball reaches into a wall now (units), by rapier's own contacts.
@@ -80,8 +119,7 @@ impl Engine for RapierEngine {
             return Err(OutOfRange::not_finite("the acceleration"));
         }
         let before = self.ball().velocity;
-        self.world.gravity = in_plane(acceleration * self.spec.rolling);
-        self.world.step();
+        self.step(acceleration);
         let after = self.ball().velocity;
         let bounced =
             |axis: usize| before[axis] * after[axis] < 0.0 && 0.0 <= before[axis] * acceleration[axis];
@@ -119,6 +157,25 @@ impl Engine for RapierEngine {
     }
 }
 
+/// A ball that is held in the plane and meets no other ball.
+fn ball_builders(spec: &BallSpec, ball: Ball) -> (RigidBodyBuilder, ColliderBuilder) {
+    let body = RigidBodyBuilder::dynamic()
+        .translation(in_plane(ball.position))
+        .linvel(in_plane(ball.velocity))
+        .enabled_translations(true, true, false)
+        .lock_rotations()
+        .can_sleep(false);
+    let shape = ColliderBuilder::ball(to_f32(spec.radius.units()))
+        .restitution(to_f32(spec.restitution))
+        .friction(0.0)
+        .collision_groups(InteractionGroups::new(
+            BALLS,
+            Group::ALL.difference(BALLS),
+            InteractionTestMode::And,
+        ));
+    (body, shape)
+}
+
 /// A world that steps by `tick_s`, as rapier comes, but without its bound on the speed.
 pub(super) fn world(tick_s: f64) -> PhysicsWorld {
     let mut world = PhysicsWorld::default();
@@ -134,14 +191,26 @@ pub(super) fn colliders(
     half_height: f32,
     middle: f32,
 ) -> Result<Vec<ColliderBuilder>, OutOfRange> {
-    if walls == Walls::Cuboids {
-        let cuboid = |wall: &maze_core::Bounds| {
-            let (half, at) = (wall.size() / 2.0, in_plane((wall.low + wall.high) / 2.0));
-            ColliderBuilder::cuboid(to_f32(half.x), to_f32(half.y), half_height)
-                .translation(at + Vector::Z * middle)
-        };
-        return Ok(board.rectangles().iter().map(cuboid).collect());
+    let cuboids = board.rectangles().iter().map(|wall| {
+        let (half, at) = (wall.size() / 2.0, in_plane((wall.low + wall.high) / 2.0));
+        let at = at + Vector::Z * middle;
+        (at, SharedShape::cuboid(to_f32(half.x), to_f32(half.y), half_height))
+    });
+    match walls {
+        Walls::Cuboids => {
+            Ok(cuboids.map(|(at, cuboid)| ColliderBuilder::new(cuboid).translation(at)).collect())
+        }
+        // rapier takes no compound of nothing.
+        Walls::Compound if board.rectangles().is_empty() => Ok(Vec::new()),
+        Walls::Compound => {
+            let parts = cuboids.map(|(at, cuboid)| (Pose::from_translation(at), cuboid)).collect();
+            Ok(vec![ColliderBuilder::compound(parts)])
+        }
+        Walls::TriangleMesh => triangle_mesh(board, half_height, middle),
     }
+}
+
+fn triangle_mesh(board: &Board, half_height: f32, middle: f32) -> Result<Vec<ColliderBuilder>, OutOfRange> {
     let mesh = board.mesh();
     if mesh.triangles.is_empty() {
         return Ok(Vec::new());
@@ -162,4 +231,66 @@ pub(super) fn in_plane(vector: Vector2<f64>) -> Vector {
 #[allow(clippy::cast_possible_truncation, reason = "rapier computes in f32")]
 pub(super) fn to_f32(value: f64) -> f32 {
     value as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use maze_core::Bounds;
+
+    fn corridor() -> Board {
+        let wall = |y: f64| Bounds { low: Vector2::new(-9.0, y), high: Vector2::new(9.0, y + 0.2) };
+        Board::from_rectangles(vec![wall(-0.7), wall(0.5)]).unwrap()
+    }
+
+    fn engine(walls: Walls) -> RapierEngine {
+        let ball = Ball { position: Vector2::new(-3.0, 0.0), velocity: Vector2::new(1.0, 2.0) };
+        RapierEngine::new(&corridor(), walls, BallSpec::default(), ball, 0.03).unwrap()
+    }
+
+    #[test]
+    fn a_compound_is_the_same_walls_as_its_cuboids() {
+        let [mut compound, mut cuboids] = [Walls::Compound, Walls::Cuboids].map(engine);
+        for _ in 0..100 {
+            compound.step(Vector2::zeros());
+            cuboids.step(Vector2::zeros());
+            assert_eq!(compound.ball(), cuboids.ball());
+        }
+        assert!(cuboids.ball().position.y.abs() < 0.2 && cuboids.ball().velocity.y.abs() < 1.0, "it bounced");
+    }
+
+    #[test]
+    fn without_ccd_a_fast_ball_passes_through() {
+        let beyond = [true, false].map(|is_on| {
+            let mut engine = engine(Walls::Compound);
+            engine.set_ccd(is_on);
+            engine.place(Ball { position: Vector2::zeros(), velocity: Vector2::new(0.0, 300.0) }).unwrap();
+            engine.step(Vector2::zeros());
+            engine.ball().position.y
+        });
+        assert!(beyond[0] < 0.5 && 1.0 < beyond[1], "{beyond:?}");
+    }
+
+    #[test]
+    fn the_broad_phase_alone_sees_walls_come_and_go() {
+        let mut engine = engine(Walls::Cuboids);
+        engine.step(Vector2::zeros());
+        let events = [0.0, 0.14, 0.14, -0.14].map(|y| engine.update_broad_phase(Vector2::new(0.0, y)));
+        // Clear of both walls, near the upper one, still there, near the lower one instead.
+        assert_eq!(events, [0, 1, 0, 2]);
+    }
+
+    #[test]
+    fn balls_of_one_world_do_not_meet() {
+        let alone = {
+            let mut engine = engine(Walls::Compound);
+            (0..100).for_each(|_| engine.step(Vector2::zeros()));
+            engine.ball()
+        };
+        let mut engine = engine(Walls::Compound);
+        let head_on = Ball { position: Vector2::new(-2.0, 0.0), velocity: Vector2::new(-1.0, 2.0) };
+        engine.add_balls([head_on].into_iter()).unwrap();
+        (0..100).for_each(|_| engine.step(Vector2::zeros()));
+        assert!((engine.ball().position - alone.position).norm() < 1.0e-5);
+    }
 }

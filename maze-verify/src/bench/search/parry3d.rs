@@ -1,7 +1,8 @@
 //! parry3d's shape casts, and rapier3d's around them: in f32, along straight lines, a ball between walls of some height.
 
 use super::{BenchError, Case, Query, Search};
-use crate::bench::case::RADIUS;
+use crate::bench::case::{RADIUS, TICK_S, spec};
+use crate::engine::{self, RapierEngine};
 use maze_core::{Bounds, Facing, Plane};
 use nalgebra::Vector2;
 use rapier3d::parry::query::{ShapeCastOptions, cast_shapes};
@@ -83,37 +84,21 @@ pub(super) fn pipeline(case: &Case) -> Result<Box<dyn Search>, BenchError> {
 }
 
 /// The broad phase alone: which colliders' boxes the moved ball's box meets now.
-struct BroadPhase {
-    world: PhysicsWorld,
-    ball: ColliderHandle,
-    events: Vec<BroadPhasePairEvent>,
-}
+struct BroadPhase(RapierEngine);
 
 impl Search for BroadPhase {
     fn first_touch(&mut self, query: &Query) -> Option<f64> {
-        let Self { world, ball, events } = self;
         let at = query.path.position + query.mean_velocity() * query.until_s;
-        world.colliders[*ball].set_translation(in_plane(at));
-        events.clear();
-        world.broad_phase.update(
-            &world.integration_parameters,
-            &world.colliders,
-            &world.bodies,
-            &[*ball],
-            &[],
-            events,
-        );
-        (!events.is_empty()).then_some(0.0)
+        (0 < self.0.update_broad_phase(at)).then_some(0.0)
     }
 }
 
 pub(super) fn broad_phase(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let mut world = world(case);
-    let at = in_plane(case.centre(0, 0));
-    let ball = ColliderBuilder::ball(to_f32(RADIUS)).translation(at);
-    let ball = world.insert_collider(ball, None);
-    world.step();
-    Ok(Box::new(BroadPhase { world, ball, events: Vec::new() }))
+    let ball = maze_core::Ball::at(case.centre(0, 0));
+    let mut engine = RapierEngine::new(case.board(), engine::Walls::Cuboids, spec(), ball, TICK_S)
+        .map_err(BenchError::set_up)?;
+    engine.step(Vector2::zeros());
+    Ok(Box::new(BroadPhase(engine)))
 }
 
 fn ball() -> Ball {

@@ -1,0 +1,159 @@
+//! Whether the balls of all contenders go the same way, for as long as that can be said.
+
+use super::super::agreement::{Agreement, Comparison};
+use super::super::case::turning_pulls;
+use super::{Built, Course, Mover};
+use maze_core::Ball;
+use nalgebra::Vector2;
+
+/// Balls are compared for so long: a fall across a corridor and the first bounce. Later every corner multiplies what little
+/// differs.
+const N_TICKS: usize = 40;
+
+/// Balls that are compared, each at rest in another cell: 10⁴ positions.
+const N_BALLS: usize = 250;
+
+/// Positions of the exact engine itself, with directories and without, are compared for this many ticks on end.
+const N_TICKS_EXACT: usize = 10_000;
+
+/// Positions farther apart than this (units) count as different: a fifth of the ball's radius.
+///
+/// Both move in steps of first order, which is v dt / 2 = 0.02 off at 1 unit/s; a bounce is told up to a tick late, which is
+/// (1 + e) v dt = 0.05; rapier's contacts begin 0.02 early.
+pub const APART: f64 = 0.05;
+
+/// What is asked of engines that move in steps.
+pub const FIRST_ORDER: Agreement =
+    Agreement::Mostly { part: 0.01, reason: "steps of first order; bounces at the end of a tick" };
+
+/// And of the report's, whose ball is reflected at corners as if they were faces.
+pub const REPORT: Agreement = Agreement::Mostly {
+    part: 0.03,
+    reason: "steps of first order; bounces at the end of a tick; corners reflected about a face's normal",
+};
+
+/// Compares all with the first, and leaves the balls somewhere.
+pub(super) fn compare_all(course: &Course, built: &mut [Built]) -> Vec<Comparison> {
+    let mut found = Vec::new();
+    let Some(((_, reference), others)) = built.split_first_mut() else { return found };
+    for (contender, mover) in others {
+        let pair: [&mut dyn Mover; 2] = [reference.as_mut(), mover.as_mut()];
+        let compared = match contender.agreement {
+            Agreement::OtherQuestion(_) => nothing(course),
+            Agreement::Exact => exact(course, pair),
+            Agreement::Mostly { part, .. } => first_bounces(course, pair, part),
+        };
+        found.push(Comparison { contender: contender.name, agreement: contender.agreement, ..compared });
+    }
+    found
+}
+
+/// One ball on and on.
+fn exact(course: &Course, [truth, given]: [&mut dyn Mover; 2]) -> Comparison {
+    let mut found = nothing(course);
+    truth.place(course.starts[0]);
+    given.place(course.starts[0]);
+    for pull in turning_pulls().into_iter().cycle().take(N_TICKS_EXACT) {
+        note(&mut found, tick_both(truth, given, pull * STRONG));
+    }
+    Comparison { holds: found.n_different == 0, ..found }
+}
+
+/// Strong enough to throw the ball about (a pull of 1 unit/s² times this).
+const STRONG: f64 = 5.0;
+
+/// Many balls, each from rest to its first bounce.
+fn first_bounces(course: &Course, [truth, given]: [&mut dyn Mover; 2], part: f64) -> Comparison {
+    let mut found = nothing(course);
+    let pulls = turning_pulls();
+    for (n, start) in course.case.scattered(N_BALLS).into_iter().map(Ball::at).enumerate() {
+        truth.place(start);
+        given.place(start);
+        // Each in another direction.
+        for pull in pulls.iter().cycle().skip(n * 31 % pulls.len()).take(N_TICKS) {
+            note(&mut found, tick_both(truth, given, *pull));
+        }
+    }
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    let part_apart = found.n_apart as f64 / found.n_asked as f64;
+    Comparison { holds: part_apart <= part, ..found }
+}
+
+fn tick_both(truth: &mut dyn Mover, given: &mut dyn Mover, pull: Vector2<f64>) -> [Ball; 2] {
+    truth.tick(pull);
+    given.tick(pull);
+    [truth.ball(), given.ball()]
+}
+
+fn note(found: &mut Comparison, [truth, given]: [Ball; 2]) {
+    let apart = (truth.position - given.position).norm();
+    found.n_asked += 1;
+    found.n_different += usize::from(truth != given);
+    // A place that is no number is as far apart as can be.
+    let apart = if apart.is_nan() { f64::INFINITY } else { apart };
+    found.n_apart += usize::from(APART < apart);
+    found.worst = found.worst.max(apart);
+}
+
+fn nothing(course: &Course) -> Comparison {
+    Comparison {
+        contender: "",
+        agreement: Agreement::Exact,
+        queries: super::ROLLING_BALL,
+        n_planes: course.n_planes(),
+        n_asked: 0,
+        limit: APART,
+        n_different: 0,
+        n_apart: 0,
+        n_missed: 0,
+        worst: 0.0,
+        holds: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{CONTINUOUS, Contender, movers};
+    use super::*;
+    use crate::bench::case::Case;
+
+    /// The exact engine, whose ball is said to be somewhere else.
+    struct Shifted(Box<dyn Mover>, f64);
+
+    impl Mover for Shifted {
+        fn tick(&mut self, pull: Vector2<f64>) {
+            self.0.tick(pull);
+        }
+
+        fn n_balls(&self) -> usize {
+            self.0.n_balls()
+        }
+
+        fn ball(&self) -> Ball {
+            let ball = self.0.ball();
+            Ball { position: ball.position.map(|x| x + self.1), ..ball }
+        }
+
+        fn place(&mut self, ball: Ball) {
+            self.0.place(ball);
+        }
+    }
+
+    fn holds(agreement: Agreement, shift: f64) -> bool {
+        let case = Case::new(9, 1).unwrap();
+        let course = Course::middle(&case);
+        let exact = || movers::exact(&course).unwrap();
+        let shifted: Box<dyn Mover> = Box::new(Shifted(exact(), shift));
+        let mut built = [(CONTINUOUS, exact()), (Contender { agreement, ..CONTINUOUS }, shifted)];
+        compare_all(&course, &mut built)[0].holds
+    }
+
+    #[test]
+    fn a_ball_elsewhere_is_found() {
+        assert!(holds(Agreement::Exact, 0.0));
+        assert!(!holds(Agreement::Exact, 1.0e-14));
+        assert!(holds(FIRST_ORDER, 0.03));
+        assert!(!holds(FIRST_ORDER, 0.04), "0.04 along both axes is more than 0.05");
+        assert!(!holds(REPORT, f64::NAN));
+    }
+}
