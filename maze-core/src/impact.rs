@@ -17,6 +17,9 @@ const GRAZE: f64 = 1.0e-10;
 /// small against anything seen.
 pub const TOUCH: f64 = 1.0e-10;
 
+/// Squared speeds below this (units²/s²) are too near to what floats hold for products with them to be compared.
+const RESTS: f64 = 1.0e-200;
+
 /// A path that reaches less than half of this (units) behind a corner's touch only grazes it. A graze has a double root,
 /// which rounding (1e-14 at 100 units) would place anywhere within 1e-7 s or nowhere.
 const GRAZE_EXCESS: f64 = 1.0e-12;
@@ -181,7 +184,8 @@ impl<'a> First<'a> {
         watch: &mut impl FnMut(Visit),
     ) {
         let start = self.path.velocity[axis];
-        let end = start + self.path.acceleration[axis] * self.until_s;
+        // Within the whole time: a touch at its very start, on the other axis, must not hide one of equal time here.
+        let end = start + self.path.acceleration[axis] * self.horizon_s;
         // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
         let all = planes.has_free_ends();
         let (falls, rises) = (all || start < 0.0 || end < 0.0, all || 0.0 < start || 0.0 < end);
@@ -279,8 +283,8 @@ impl<'a> First<'a> {
         let to_point = point - position;
         let across = velocity.x * to_point.y - velocity.y * to_point.x;
         let strays = (acceleration.x.abs() + acceleration.y.abs()) * (self.until_s * self.until_s / 2.0);
-        let reach = self.reach + strays;
-        reach * reach * velocity.norm_squared() < across * across
+        let (reach, speed) = (self.reach + strays, velocity.norm_squared());
+        RESTS < speed && reach * reach * speed < across * across
     }
 
     /// Whether the path leads away from a point from the start, or is still out of its reach and closing at the best
@@ -390,7 +394,8 @@ pub(crate) fn search(
     first.impact
 }
 
-/// The plain truth that [`first`] is tested against: every plane of every group.
+/// What [`first`] is tested against: every plane of every group, in any order. Both tell corners off alike; that no touch is
+/// lost by it is tested against [`face`] and [`corner`] themselves.
 pub fn first_scan(
     planes: &SortedPlanes,
     path: &Path,

@@ -289,6 +289,16 @@ fn numbers_that_leave_the_range_within_a_tick_are_refused_and_change_nothing() {
     }
     let planes = Arc::new(SortedPlanes::new(FLOOR).unwrap());
     assert!(Continuous::new(planes, spec(E), ball([0.0, 9.0], [0.0, 0.0]), 1.0e6).is_err());
+    // Also by a ball at rest on the floor, whose ticks need no search.
+    let mut engine = engine(&FLOOR, ball([0.0, 0.5], [0.0, 0.0]), 0.03);
+    run(&mut engine, [0.0, -1.0], 3.0);
+    let rest = engine.ball();
+    for pull in [-f64::INFINITY, -1.0e200, f64::NAN] {
+        assert!(
+            engine.tick(Vector2::new(0.0, pull)).is_err() && engine.tick(Vector2::new(pull, -1.0)).is_err()
+        );
+        assert_eq!(engine.ball(), rest);
+    }
 }
 
 fn random_maze(seed: u64) -> Maze {

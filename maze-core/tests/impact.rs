@@ -19,6 +19,33 @@ fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
     Plane { facing, offset, start, end }
 }
 
+#[test]
+fn of_two_touches_at_the_very_start_the_one_of_lower_rank_is_found() {
+    // In a corner, moving onto one face and pulled onto the other.
+    let planes = [plane(Facing::PlusX, 0.0, 0.0, 5.0), plane(Facing::PlusY, 0.0, 0.0, 5.0)];
+    let planes = SortedPlanes::new(planes).unwrap();
+    for (velocity, acceleration) in [([0.0, -1.0], [-1.0, 0.0]), ([-1.0, 0.0], [0.0, -1.0])] {
+        let [velocity, acceleration] = [velocity, acceleration].map(|[x, y]| Vector2::new(x, y));
+        let path = Path { position: Vector2::new(0.35, 0.35), velocity, acceleration };
+        let first = impact::first(&planes, &path, 0.35, 0.03, None);
+        assert_eq!(first, impact::first_scan(&planes, &path, 0.35, 0.03, None));
+        assert!(matches!(first.unwrap().touched, Touched::Face(face) if face.facing == Facing::PlusX));
+    }
+}
+
+#[test]
+fn a_corner_is_met_by_a_ball_that_starts_too_slowly_for_squares() {
+    let planes = SortedPlanes::new([plane(Facing::MinusX, 3.0, -0.1, 5.0)]).unwrap();
+    let path = Path {
+        position: Vector2::new(0.0, -0.2),
+        velocity: Vector2::repeat(1.5e-162),
+        acceleration: Vector2::new(10.0, 0.0),
+    };
+    let truth = impact::corner(&path, 0.35, Vector2::new(3.0, -0.1), 1.0);
+    assert_eq!(impact::first(&planes, &path, 0.35, 1.0, None).map(|impact| impact.time_s), truth);
+    assert!(truth.is_some());
+}
+
 /// Cells along a side of a random ground plan.
 const N: usize = 8;
 

@@ -1,7 +1,7 @@
 //! Instructions a hot call, against what `counts.txt` expects: `cargo bench -p maze-core --bench instructions`, and with
 //! `-- --update` at the end it writes the file anew.
 //!
-//! Time is noise on a machine that others use; instructions under valgrind are the same in every run. Each call is made one
+//! Times vary from run to run; instructions under valgrind do not. Each call is made one
 //! round long and two rounds long, and the difference counts, so that set-up does not. gungraun would do the same through
 //! the same valgrind, but its runner has to be installed beside it in the same version.
 //!

@@ -360,3 +360,27 @@ impl Engine for Continuous {
         self.tick_s
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plane::Facing;
+
+    #[test]
+    fn most_ticks_of_a_rolling_ball_need_no_search() {
+        let walls =
+            [(Facing::PlusX, 0.0), (Facing::MinusX, 9.0), (Facing::PlusY, 0.0), (Facing::MinusY, 1.0)];
+        let corridor = walls.map(|(facing, offset)| Plane { facing, offset, start: 0.0, end: 9.0 });
+        let planes = Arc::new(SortedPlanes::new(corridor).unwrap());
+        let start = Ball::at(Vector2::new(1.0, 0.5));
+        let mut engine = Continuous::new(planes, BallSpec::default(), start, 0.03).unwrap();
+        let mut n_searched = 0;
+        for n in 0..1000 {
+            let pull = Vector2::new(if n % 200 < 100 { 0.5 } else { -0.5 }, -0.5);
+            let passes = |clearing: &Clearing| clearing.pass(engine.ball, pull, engine.tick_s).is_some();
+            n_searched += u32::from(!engine.clearing.as_ref().is_some_and(passes));
+            engine.tick(pull).unwrap();
+        }
+        assert!(n_searched < 200, "{n_searched} of 1000");
+    }
+}

@@ -35,7 +35,7 @@ pub(super) struct Collector {
 /// So many numbers are as well sorted with their repetitions.
 const FEW: usize = 1024;
 
-/// Hashes of as many bits: twice as many numbers as a board of 10⁷ planes has lines.
+/// Hashes of as many bits: three times as many as a board of 10⁷ planes has lines.
 const HASH_BITS: u32 = 14;
 
 impl Collector {
@@ -64,7 +64,7 @@ impl Collector {
     }
 }
 
-/// Most buckets for each value, spent where they leave no two values in one bucket.
+/// About as many buckets for each value are spent at most, where they leave no two values in one bucket.
 const MOST_BUCKETS: usize = 4;
 
 /// 2⁵² is so large that a number below 2³² added to it is rounded to a whole one.
@@ -105,7 +105,7 @@ impl Coordinates {
         self.buckets_per_unit = if is_split { per_unit } else { 0.0 };
         let last = if is_split { last } else { 0 };
         self.last_bucket = f64::from(last);
-        self.is_single = true;
+        self.is_single = 0 < n_values;
         self.buckets = vec![0; last as usize + 2];
         let (mut next, mut rank) = (0, 0);
         for bucket in 0..=last {
@@ -222,6 +222,14 @@ mod tests {
     }
 
     #[test]
+    fn without_values_every_rank_is_0() {
+        let none = Coordinates::new(Vec::new());
+        for value in [0.0, -f64::MAX, f64::MAX, f64::INFINITY] {
+            assert_eq!((none.n_below(value), none.n_not_above(value)), (0, 0));
+        }
+    }
+
+    #[test]
     fn collected_numbers_are_the_distinct_ones_however_often_they_repeat() {
         let mut collector = Collector::default();
         (0..100_000_u32).for_each(|n| collector.push(f64::from(n * 7919 % 20_011)));
@@ -235,7 +243,7 @@ mod tests {
         let lines = (0..1000_u32).flat_map(|n| [0.0, 0.2].map(|wall| f64::from(n) * 1.2 + wall));
         let coordinates = Coordinates::new(lines.collect());
         assert!(coordinates.is_single);
-        assert!(coordinates.buckets.len() <= MOST_BUCKETS * coordinates.len());
+        assert!(coordinates.buckets.len() < (MOST_BUCKETS + 1) * coordinates.len());
         // Lines that come closer to each other than that are told apart by bisection.
         assert!(!Coordinates::new((0..1000).map(|n| 1.0 / f64::from(n + 1)).collect()).is_single);
     }

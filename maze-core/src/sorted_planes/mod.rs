@@ -26,8 +26,8 @@ const MAX_PLANES: usize = 1 << 28;
 /// in reach, walk the rows in the direction of motion, bisect in each for the interval. O(log n) a row within reach, and
 /// O(1) where offsets and interval ends are evenly spread: directories tell each bisection where to begin.
 ///
-/// A plane of a row takes 8 bytes and its part of the row's directory about 2: its start and end are kept as ranks among
-/// the coordinates of their axis, which a maze of right angles uses again and again.
+/// A plane takes 8 bytes and its part of its row's directory about 2: start and end are kept as ranks among the coordinates
+/// of their axis, which a maze uses again and again. Where every plane has coordinates and a row of its own it is some 100.
 #[derive(Clone, Debug)]
 pub struct SortedPlanes {
     axes: [Coordinates; 2],
