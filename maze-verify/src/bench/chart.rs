@@ -35,7 +35,10 @@ impl Figures {
     pub fn chart(&self) -> String {
         let questions = self.charted();
         let shown = self.groups.iter().filter(|group| questions.contains(&group.question));
-        let names = distinct(shown.flat_map(|group| group.series.iter().map(|series| series.name)));
+        let leaders =
+            distinct(shown.clone().filter_map(|group| group.series.first()).map(|series| series.name));
+        let all = shown.flat_map(|group| group.series.iter().map(|series| series.name));
+        let names = distinct(leaders.iter().copied().chain(all));
         let n_rows = questions.len().div_ceil(N_ACROSS);
         let across = N_ACROSS.min(questions.len().max(1)) as f64;
         let width = (across * (WIDTH + GAP) + GAP).max(3.0 * LEGEND_ENTRY + 2.0 * GAP);
@@ -48,7 +51,7 @@ impl Figures {
              height=\"{height}\">{}<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\
              <text class=\"head\" x=\"{GAP}\" y=\"24\">Time (ns) against number of planes</text>\
              <text x=\"{GAP}\" y=\"42\">{}</text>",
-            style(names.len()),
+            style(names.len(), leaders.len()),
             escaped(&self.machine.lines().join("; "))
         );
         for (index, question) in questions.iter().enumerate() {
@@ -119,7 +122,8 @@ fn class(index: usize) -> String {
     format!("c-{index}")
 }
 
-fn style(n_contenders: usize) -> String {
+/// Those that the others are compared with come first, in broad lines.
+fn style(n_contenders: usize, n_leaders: usize) -> String {
     let mut light = String::new();
     let mut dark = String::new();
     for index in 0..n_contenders {
@@ -127,12 +131,15 @@ fn style(n_contenders: usize) -> String {
         let dashes = DASHES[index / COLOURS.len() % DASHES.len()];
         let _ = write!(light, ".c-{index}{{color:{on_light};stroke-dasharray:{dashes}}}");
         let _ = write!(dark, ".c-{index}{{color:{on_dark}}}");
+        if index < n_leaders {
+            let _ = write!(light, ".c-{index} polyline{{stroke-width:3}}");
+        }
     }
     format!(
         "<style>.paper{{fill:#fbfaf7}}text{{fill:#5c626c;font:11.5px system-ui,sans-serif}}\
          .title,.head{{fill:#1d1f24;font-weight:600;font-size:12.5px}}.head{{font-size:16px}}\
          .grid{{stroke:#dedbd3}}polyline{{fill:none;stroke:currentColor;stroke-width:1.6}}\
-         .c-0 polyline{{stroke-width:3}}circle{{fill:currentColor}}{light}\
+         circle{{fill:currentColor}}{light}\
          @media(prefers-color-scheme:dark){{.paper{{fill:#15171b}}text{{fill:#a0a5ae}}\
          .title,.head{{fill:#e8e6e1}}.grid{{stroke:#343942}}{dark}}}</style>"
     )
