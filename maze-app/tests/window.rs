@@ -83,9 +83,11 @@ struct Screen {
 
 impl Screen {
     fn start() -> Self {
+        // Without -noreset the server begins anew when its last client leaves, which throws out a window manager that is just
+        // arriving while wmctrl asks for it.
         let mut server = start(
             Command::new("Xvfb")
-                .args(["-displayfd", "1", "-screen", "0", "1400x900x24", "-nolisten", "tcp"])
+                .args(["-displayfd", "1", "-screen", "0", "1400x900x24", "-nolisten", "tcp", "-noreset"])
                 .stdout(Stdio::piped())
                 .stderr(Stdio::null()),
         );
