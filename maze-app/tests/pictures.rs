@@ -189,6 +189,14 @@ fn frames_offscreen_are_logged_and_plotted() {
     for line in ["frame time", "our thread", "all threads", "graphics adapter", "start to first frame"] {
         assert!(text.contains(line), "{text}");
     }
+    let refused = Command::new(env!("CARGO_BIN_EXE_maze-app"))
+        .args(["frames", "--offscreen", "--csv"])
+        .arg(&plot)
+        .arg("--plot")
+        .arg(&plot)
+        .output()
+        .unwrap();
+    assert_eq!(refused.status.code(), Some(2), "one name for two files");
     let csv = std::fs::read_to_string(csv).unwrap();
     let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
     assert!(5 < rows.len() && rows.iter().all(|row| row.len() == 8), "{csv}");

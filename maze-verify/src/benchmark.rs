@@ -45,11 +45,12 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<bool, BadInput> {
     let mut figures = measure(&plan, &search::CONTENDERS, &on_step).map_err(bad)?;
     tick::measure(&plan, &mut figures, &on_step).map_err(bad)?;
     bar.finish_and_clear();
+    // First, so that minutes of measuring are not lost with a file that cannot be written.
+    files::print(&figures.table())?;
     if let Some(out) = &arguments.out {
         files::write_whole(&out.join("bench.csv"), figures.csv().as_bytes())?;
         files::write_whole(&out.join("agreement.csv"), figures.agreement_csv().as_bytes())?;
         files::write_whole(&out.join("bench.svg"), figures.chart().as_bytes())?;
     }
-    files::print(&figures.table())?;
     Ok(figures.held())
 }

@@ -28,7 +28,8 @@ pub(crate) fn read_text(path: &Path) -> Result<String, BadInput> {
 
 /// The directory, if it is not there yet.
 pub(crate) fn make_directory(path: &Path) -> Result<(), BadInput> {
-    std::fs::create_dir_all(path).map_err(|error| in_file(path, error))
+    std::fs::create_dir_all(path)
+        .map_err(|error| in_file(path, format!("expected a directory, or a place to make one: {error}")))
 }
 
 /// Writes beside the target under a temporary name, then renames.

@@ -122,7 +122,7 @@ fn the_program_prints_a_table_and_writes_its_files() {
         let mut command = Command::new(env!("CARGO_BIN_EXE_maze-verify"));
         command.arg("bench").args(arguments).current_dir(directory.path()).output().unwrap()
     };
-    let output = bench(&["--quick", "--max-planes", "200", "--out", "out/deep"]);
+    let output = bench(&["--quick", "--max-planes", "112", "--out", "out/deep"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(table.contains("rolling ball") && table.contains("the same bits"), "{table}");

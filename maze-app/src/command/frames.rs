@@ -82,6 +82,11 @@ pub(crate) fn run(arguments: &Arguments, started: Instant) -> Result<(), Failure
         files::expect_extension(path, "png")
             .map_err(|_| Failure::in_file(path, "expected a name that ends in .png or .svg"))?;
     }
+    if let (Some(csv), Some(plot)) = (&arguments.csv, &arguments.plot)
+        && csv == plot
+    {
+        return Err(Failure::in_file(plot, "expected another name for the plot than for the CSV"));
+    }
     for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
         files::expect_directory_of(path)?;
     }

@@ -67,9 +67,9 @@ impl Plan {
     /// Only mazes of at most about so many planes.
     #[must_use]
     pub fn up_to(mut self, n_planes: usize) -> Self {
-        // 1.42 planes a cell, of tiles as large as these.
+        // 1.388 planes a cell and a few more, of tiles as large as these.
         for sizes in [&mut self.sizes, &mut self.tick_sizes] {
-            sizes.retain(|[tile, n_tiles]| 142 * (tile * n_tiles).pow(2) / 100 <= n_planes);
+            sizes.retain(|[tile, n_tiles]| 1388 * (tile * n_tiles).pow(2) / 1000 <= n_planes);
         }
         self
     }

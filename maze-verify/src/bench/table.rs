@@ -124,9 +124,8 @@ fn told(found: &[&Comparison]) -> String {
     }
 }
 
+/// What was measured but once has no spread.
 fn shown(spread: Option<Spread>) -> String {
-    spread.map_or_else(
-        || "-".to_owned(),
-        |spread| format!("{} ({}..{})", plain(spread.median), plain(spread.low), plain(spread.high)),
-    )
+    let Some(Spread { low, median, high }) = spread else { return "-".to_owned() };
+    if low < high { format!("{} ({}..{})", plain(median), plain(low), plain(high)) } else { plain(median) }
 }
