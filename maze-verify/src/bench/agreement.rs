@@ -79,48 +79,68 @@ fn compare(
     set: &QuerySet,
     [truth, given]: [&[Option<f64>]; 2],
 ) -> Comparison {
-    let queries = set.name;
-    let n_asked = given.len();
-    let mut found = Comparison {
-        contender,
-        agreement,
-        queries,
-        n_planes,
-        n_asked,
-        limit: APART,
-        n_different: 0,
-        n_apart: 0,
-        n_missed: 0,
-        worst: 0.0,
-        holds: true,
-    };
+    let mut found = Comparison::new(contender, agreement, set.name, n_planes, APART);
     for ((query, truth), given) in set.queries.iter().zip(truth).zip(given) {
         match (truth, given) {
             (Some(truth), Some(given)) => {
                 let apart = (query.path.at(*truth) - query.path.at(*given)).norm();
-                found.n_different += usize::from(truth.to_bits() != given.to_bits());
-                // A time that is no number is as far off as can be.
-                let apart = if apart.is_nan() { f64::INFINITY } else { apart };
-                found.n_apart += usize::from(APART < apart);
-                found.worst = found.worst.max(apart);
+                found.note(truth.to_bits() == given.to_bits(), apart);
             }
-            (None, None) => {}
+            (None, None) => found.note(true, 0.0),
             _ => {
-                found.n_different += 1;
+                found.note(false, 0.0);
                 found.n_missed += 1;
             }
         }
     }
-    found.holds = match agreement {
-        Agreement::Exact => found.n_different == 0,
-        Agreement::Mostly { part, .. } => found.part_off() <= part,
-        Agreement::OtherQuestion(_) => true,
-    };
-    found
+    found.judged()
 }
 
 impl Comparison {
-    /// Part of the answers that are off by more than [`APART`] or missed.
+    /// Nothing compared yet.
+    pub(super) fn new(
+        contender: &'static str,
+        agreement: Agreement,
+        queries: &'static str,
+        n_planes: usize,
+        limit: f64,
+    ) -> Self {
+        Self {
+            contender,
+            agreement,
+            queries,
+            n_planes,
+            n_asked: 0,
+            limit,
+            n_different: 0,
+            n_apart: 0,
+            n_missed: 0,
+            worst: 0.0,
+            holds: true,
+        }
+    }
+
+    /// Counts two answers that lie so far apart (units), and are the same to the bit or not.
+    pub(super) fn note(&mut self, is_same: bool, apart: f64) {
+        // What is no number is as far apart as can be.
+        let apart = if apart.is_nan() { f64::INFINITY } else { apart };
+        self.n_asked += 1;
+        self.n_different += usize::from(!is_same);
+        self.n_apart += usize::from(self.limit < apart);
+        self.worst = self.worst.max(apart);
+    }
+
+    /// With the verdict on what was counted.
+    pub(super) fn judged(self) -> Self {
+        let holds = match self.agreement {
+            Agreement::Exact => self.n_different == 0,
+            Agreement::Mostly { part, .. } => self.part_off() <= part,
+            Agreement::OtherQuestion(_) => true,
+        };
+        Self { holds, ..self }
+    }
+
+    /// Part of the answers that are off by more than the limit or missed.
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     pub fn part_off(&self) -> f64 {
         (self.n_apart + self.n_missed) as f64 / self.n_asked.max(1) as f64

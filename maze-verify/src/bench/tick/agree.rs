@@ -38,77 +38,48 @@ pub(super) fn compare_all(course: &Course, built: &mut [Built]) -> Vec<Compariso
     let Some(((_, reference), others)) = built.split_first_mut() else { return found };
     for (contender, mover) in others {
         let pair: [&mut dyn Mover; 2] = [reference.as_mut(), mover.as_mut()];
-        let compared = match contender.agreement {
-            Agreement::OtherQuestion(_) => nothing(course),
-            Agreement::Exact => exact(course, pair),
-            Agreement::Mostly { part, .. } => first_bounces(course, pair, part),
-        };
-        found.push(Comparison { contender: contender.name, agreement: contender.agreement, ..compared });
+        let (name, agreement, n_planes) = (contender.name, contender.agreement, course.n_planes());
+        let mut compared = Comparison::new(name, agreement, super::ROLLING_BALL, n_planes, APART);
+        match agreement {
+            Agreement::OtherQuestion(_) => {}
+            Agreement::Exact => exact(&mut compared, course, pair),
+            Agreement::Mostly { .. } => first_bounces(&mut compared, course, pair),
+        }
+        found.push(compared.judged());
     }
     found
 }
 
 /// One ball on and on.
-fn exact(course: &Course, [truth, given]: [&mut dyn Mover; 2]) -> Comparison {
-    let mut found = nothing(course);
+fn exact(found: &mut Comparison, course: &Course, [truth, given]: [&mut dyn Mover; 2]) {
     truth.place(course.starts[0]);
     given.place(course.starts[0]);
     for pull in turning_pulls().into_iter().cycle().take(N_TICKS_EXACT) {
-        note(&mut found, tick_both(truth, given, pull * STRONG));
+        tick_both(found, [truth, given], pull * STRONG);
     }
-    Comparison { holds: found.n_different == 0, ..found }
 }
 
 /// Strong enough to throw the ball about (a pull of 1 unit/s² times this).
 const STRONG: f64 = 5.0;
 
 /// Many balls, each from rest to its first bounce.
-fn first_bounces(course: &Course, [truth, given]: [&mut dyn Mover; 2], part: f64) -> Comparison {
-    let mut found = nothing(course);
+fn first_bounces(found: &mut Comparison, course: &Course, [truth, given]: [&mut dyn Mover; 2]) {
     let pulls = turning_pulls();
     for (n, start) in course.case.scattered(N_BALLS).into_iter().map(Ball::at).enumerate() {
         truth.place(start);
         given.place(start);
         // Each in another direction.
         for pull in pulls.iter().cycle().skip(n * 31 % pulls.len()).take(N_TICKS) {
-            note(&mut found, tick_both(truth, given, *pull));
+            tick_both(found, [truth, given], *pull);
         }
     }
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    let part_apart = found.n_apart as f64 / found.n_asked as f64;
-    Comparison { holds: part_apart <= part, ..found }
 }
 
-fn tick_both(truth: &mut dyn Mover, given: &mut dyn Mover, pull: Vector2<f64>) -> [Ball; 2] {
+fn tick_both(found: &mut Comparison, [truth, given]: [&mut dyn Mover; 2], pull: Vector2<f64>) {
     truth.tick(pull);
     given.tick(pull);
-    [truth.ball(), given.ball()]
-}
-
-fn note(found: &mut Comparison, [truth, given]: [Ball; 2]) {
-    let apart = (truth.position - given.position).norm();
-    found.n_asked += 1;
-    found.n_different += usize::from(truth != given);
-    // A place that is no number is as far apart as can be.
-    let apart = if apart.is_nan() { f64::INFINITY } else { apart };
-    found.n_apart += usize::from(APART < apart);
-    found.worst = found.worst.max(apart);
-}
-
-fn nothing(course: &Course) -> Comparison {
-    Comparison {
-        contender: "",
-        agreement: Agreement::Exact,
-        queries: super::ROLLING_BALL,
-        n_planes: course.n_planes(),
-        n_asked: 0,
-        limit: APART,
-        n_different: 0,
-        n_apart: 0,
-        n_missed: 0,
-        worst: 0.0,
-        holds: true,
-    }
+    let [truth, given] = [truth.ball(), given.ball()];
+    found.note(truth == given, (truth.position - given.position).norm());
 }
 
 #[cfg(test)]
