@@ -195,6 +195,7 @@ impl<'a> First<'a> {
         let [plus, minus] = Facing::across(axis);
         let offsets = self.reached(axis);
         let ranks = planes.ranks(axis, offsets);
+        // Written out for both: as one function, a short query takes a tenth more instructions.
         if falls {
             watch(Visit::Group { facing: plus, offsets });
             let rows = planes.rows_at(plus, &ranks);

@@ -107,17 +107,16 @@ impl Coordinates {
         self.last_bucket = f64::from(last);
         self.is_single = 0 < n_values;
         self.buckets = vec![0; last as usize + 2];
-        let (mut next, mut rank) = (0, 0);
+        let mut next = 0_u32;
         for bucket in 0..=last {
-            self.buckets[bucket as usize] = rank;
             let first = next;
-            while next < n_values && self.bucket(self.values[next]) == bucket as usize {
+            self.buckets[bucket as usize] = first;
+            while (next as usize) < n_values && self.bucket(self.value(next)) == bucket as usize {
                 next += 1;
-                rank += 1;
             }
             self.is_single &= next <= first + 1;
         }
-        self.buckets[last as usize + 1] = rank;
+        self.buckets[last as usize + 1] = next;
     }
 
     /// How many there are.
