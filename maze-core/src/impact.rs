@@ -6,23 +6,12 @@
 use crate::plane::{Facing, Plane};
 use crate::roots::{bracketed_root, falls_through_zero, quadratic_roots};
 use crate::sorted_planes::{Face, SortedPlanes, WIDENED};
+use crate::tolerance::{self, PASSING};
 use nalgebra::Vector2;
 use std::ops::Range;
 
-/// At the start a corner is touched only when approached faster than this part of the speed: what is slower is the
-/// rounding of a ball that has just left it or slides by.
-const GRAZE: f64 = 1.0e-10;
-
-/// A circle overlapping a face by less than this (units) touches it: large against rounding on the largest boards (1e-12),
-/// small against anything seen.
-pub const TOUCH: f64 = 1.0e-10;
-
 /// Squared speeds below this (units²/s²) are too near to what floats hold for products with them to be compared.
 const RESTS: f64 = 1.0e-200;
-
-/// A path that reaches less than half of this (units) behind a corner's touch only grazes it. A graze has a double root,
-/// which rounding (1e-14 at 100 units) would place anywhere within 1e-7 s or nowhere.
-const GRAZE_EXCESS: f64 = 1.0e-12;
 
 /// Motion under constant acceleration: position + velocity t + acceleration t² / 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,13 +24,49 @@ pub struct Path {
     pub acceleration: Vector2<f64>,
 }
 
-/// What is touched.
+/// A part of a wall that a circle can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Touched {
+pub enum Feature {
     /// A face, within its extent.
     Face(Plane),
-    /// The end of a face.
-    Corner(Vector2<f64>),
+    /// The end of a face: the corner of a wall, or the free end of one without thickness.
+    Point(Vector2<f64>),
+}
+
+impl Feature {
+    /// The unit normal towards a circle's centre that touches it; `None` for a centre on the point itself.
+    pub fn normal_at(&self, centre: Vector2<f64>) -> Option<Vector2<f64>> {
+        match self {
+            Self::Face(plane) => Some(plane.facing.normal()),
+            Self::Point(point) => (centre - point).try_normalize(0.0),
+        }
+    }
+
+    /// The point of it that a circle there touches.
+    pub fn closest_point(&self, centre: Vector2<f64>) -> Vector2<f64> {
+        match self {
+            Self::Face(plane) => plane.facing.point(plane.offset, centre[1 - plane.facing.axis()]),
+            Self::Point(point) => *point,
+        }
+    }
+
+    /// The centre of the circle that touches it there, less what rounding left between or behind.
+    ///
+    /// On a face never inside by an ulp: else each point of a neighbour on the same line would be hit.
+    pub(crate) fn touching(&self, centre: Vector2<f64>, normal: Vector2<f64>, radius: f64) -> Vector2<f64> {
+        match self {
+            Self::Face(plane) => {
+                let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
+                let mut centre = centre;
+                centre[axis] = plane.offset + sign * radius;
+                if (centre[axis] - plane.offset) * sign < radius {
+                    centre[axis] = if sign < 0.0 { centre[axis].next_down() } else { centre[axis].next_up() };
+                }
+                centre
+            }
+            Self::Point(point) => point + normal * radius,
+        }
+    }
 }
 
 /// The first touch.
@@ -50,7 +75,7 @@ pub struct Impact {
     /// From the start of the path (s).
     pub time_s: f64,
     /// What is touched.
-    pub touched: Touched,
+    pub touched: Feature,
 }
 
 impl Path {
@@ -86,12 +111,38 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
     let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
     let gap = (path.position[axis] - plane.offset) * sign - radius;
     // A ball set down exactly at its radius may read as a rounding inside.
-    let gap = if -TOUCH < gap && gap < 0.0 { 0.0 } else { gap };
+    let gap = if gap < 0.0 && -tolerance::touch(radius, path.position) < gap { 0.0 } else { gap };
     let time_s = falls_through_zero(gap, path.velocity[axis] * sign, path.acceleration[axis] * sign)?;
     let (along, speed) = (path.at(time_s)[1 - axis], path.velocity_at(time_s)[1 - axis]);
-    // Over the very end and on the way out the circle is the corner's, which knows whether it is pressed.
-    let leaves = (along == plane.end && 0.0 < speed) || (along == plane.start && speed < 0.0);
-    (plane.start <= along && along <= plane.end && !leaves).then_some(time_s)
+    if plane.start <= along && along <= plane.end {
+        // Over the very end and on the way out the circle is the corner's, which knows whether it is pressed.
+        let leaves = (along == plane.end && 0.0 < speed) || (along == plane.start && speed < 0.0);
+        return (!leaves).then_some(time_s);
+    }
+    // Beside it: a circle that grazes the corner comes over the face when it is a little below its level.
+    let (outside, inward) = if along < plane.start { (plane.start - along, speed) } else { (along - plane.end, -speed) };
+    let fall = -(path.velocity_at(time_s)[axis] * sign);
+    // Deeper than a touch by then, as usual.
+    if inward <= 0.0 || tolerance::touch(radius, path.position) * inward < fall * outside {
+        return None;
+    }
+    enters(path, radius, plane, time_s)
+}
+
+/// When a circle that has fallen to the level of a face beside it comes over the face, still touching.
+#[cold]
+fn enters(path: &Path, radius: f64, plane: &Plane, beside_s: f64) -> Option<f64> {
+    let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
+    let (along, speed) = (path.at(beside_s)[1 - axis], path.velocity_at(beside_s)[1 - axis]);
+    let pull = path.acceleration[1 - axis];
+    let later_s = match along < plane.start {
+        true => falls_through_zero(plane.start - along, -speed, -pull)?,
+        false => falls_through_zero(along - plane.end, speed, pull)?,
+    };
+    let time_s = beside_s + later_s;
+    let (centre, velocity) = (path.at(time_s), path.velocity_at(time_s));
+    let gap = (centre[axis] - plane.offset) * sign - radius;
+    (-tolerance::touch(radius, centre) < gap && velocity[axis] * sign <= 0.0).then_some(time_s)
 }
 
 /// When a circle on a path first touches a point, within `horizon_s`.
@@ -102,17 +153,33 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
 /// The squared distance is a quartic in t. Its turning points are isolated by those of its derivative, whose own are the
 /// roots of a quadratic; in each stretch that falls through zero the root is bracketed and found by safeguarded Newton.
 pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> Option<f64> {
+    touches_point(path, radius, point, horizon_s, false)
+}
+
+/// [`corner`], for a circle that has just left the point if `has_left`: what rounding shows of it at the start is no touch.
+fn touches_point(
+    path: &Path,
+    radius: f64,
+    point: Vector2<f64>,
+    horizon_s: f64,
+    has_left: bool,
+) -> Option<f64> {
     let from_point = Path { position: path.position - point, ..*path };
     let (v, a) = (path.velocity, path.acceleration);
-    let excess = |t: f64| from_point.at(t).norm_squared() - radius * radius;
+    let start = from_point.position.norm_squared();
+    let outer = radius * radius;
+    // A circle set down at its radius may read as a rounding inside: then the point is touched where it is now.
+    let touching = start < outer && radius - tolerance::touch(radius, path.position) < start.sqrt();
+    let level = if touching { start } else { outer };
+    let excess = |t: f64| from_point.at(t).norm_squared() - level;
     let half_slope = |t: f64| from_point.at(t).dot(&from_point.velocity_at(t));
     let half_curve = |t: f64| from_point.velocity_at(t).norm_squared() + from_point.at(t).dot(&a);
     let is_touch = |t: f64| {
         let approach = half_slope(t) / radius;
-        let graze = GRAZE * from_point.velocity_at(t).norm();
+        let graze = PASSING * from_point.velocity_at(t).norm();
         approach < -graze || (approach <= graze && half_curve(t) < 0.0)
     };
-    if excess(0.0) <= 0.0 && is_touch(0.0) {
+    if !has_left && excess(0.0) <= 0.0 && is_touch(0.0) {
         return Some(0.0);
     }
     let within = |t: &f64| 0.0 < *t && *t < horizon_s;
@@ -137,7 +204,7 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
         let [from, to] = [turns[index], turns[index + 1]];
         // At a turning point the path is at its nearest or farthest: what rounding makes of a graze there is neither a
         // touch nor a start inside.
-        let graze = GRAZE_EXCESS * radius;
+        let graze = 2.0 * radius * tolerance::graze(radius, path.position);
         let deep_enough = if index + 1 < n_turns { excess(to) < -graze } else { excess(to) <= 0.0 };
         if excess(from) < -graze || !deep_enough {
             return None;
@@ -146,7 +213,7 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
             true => bracketed_root(from, to, |t| (excess(t), 2.0 * half_slope(t))),
             false => from,
         };
-        is_touch(time_s).then_some(time_s)
+        (is_touch(time_s) && !(has_left && time_s == 0.0)).then_some(time_s)
     })
 }
 
@@ -180,7 +247,7 @@ impl<'a> First<'a> {
         &mut self,
         planes: &SortedPlanes,
         axis: usize,
-        ignored: Option<Vector2<f64>>,
+        left: Option<Vector2<f64>>,
         watch: &mut impl FnMut(Visit),
     ) {
         let start = self.path.velocity[axis];
@@ -200,14 +267,14 @@ impl<'a> First<'a> {
             watch(Visit::Group { facing: plus, offsets });
             let rows = planes.rows_at(plus, &ranks);
             if !rows.is_empty() {
-                self.search_rows(planes, plus, rows, ignored, watch);
+                self.search_rows(planes, plus, rows, left, watch);
             }
         }
         if rises {
             watch(Visit::Group { facing: minus, offsets });
             let rows = planes.rows_at(minus, &ranks);
             if !rows.is_empty() {
-                self.search_rows(planes, minus, rows, ignored, watch);
+                self.search_rows(planes, minus, rows, left, watch);
             }
         }
     }
@@ -218,7 +285,7 @@ impl<'a> First<'a> {
         planes: &SortedPlanes,
         facing: Facing,
         rows: Range<usize>,
-        ignored: Option<Vector2<f64>>,
+        left: Option<Vector2<f64>>,
         watch: &mut impl FnMut(Visit),
     ) {
         let axis = facing.axis();
@@ -236,37 +303,37 @@ impl<'a> First<'a> {
             watch(Visit::Row { offset: row.offset(), window });
             for candidate in row.within(window) {
                 watch(Visit::Plane(candidate.plane));
-                self.offer(&candidate, ignored);
+                self.offer(&candidate, left);
             }
         }
     }
 
-    fn offer(&mut self, candidate: &Face, ignored: Option<Vector2<f64>>) {
+    fn offer(&mut self, candidate: &Face, left: Option<Vector2<f64>>) {
         let Face { plane, is_corner: [starts, ends] } = candidate;
         if let Some(time_s) = face(self.path, self.radius, plane) {
-            self.keep(Impact { time_s, touched: Touched::Face(*plane) });
+            self.keep(Impact { time_s, touched: Feature::Face(*plane) });
         }
         if *starts {
-            self.offer_corner(plane.facing.point(plane.offset, plane.start), ignored);
+            self.offer_corner(plane.facing.point(plane.offset, plane.start), left);
         }
         if *ends {
-            self.offer_corner(plane.facing.point(plane.offset, plane.end), ignored);
+            self.offer_corner(plane.facing.point(plane.offset, plane.end), left);
         }
     }
 
-    fn offer_corner(&mut self, point: Vector2<f64>, ignored: Option<Vector2<f64>>) {
-        let is_known = |known: Impact| known.touched == Touched::Corner(point);
+    fn offer_corner(&mut self, point: Vector2<f64>, left: Option<Vector2<f64>>) {
+        let is_known = |known: Impact| known.touched == Feature::Point(point);
         if self.is_beside(point)
             || self.is_out_of_time(point)
-            || ignored == Some(point)
             || self.impact.is_some_and(is_known)
         {
             return;
         }
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
-        if let Some(time_s) = corner(self.path, self.radius, point, self.horizon_s) {
-            self.keep(Impact { time_s, touched: Touched::Corner(point) });
+        if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, left == Some(point))
+        {
+            self.keep(Impact { time_s, touched: Feature::Point(point) });
         }
     }
 
@@ -349,12 +416,13 @@ impl<'a> First<'a> {
 /// A total order of impacts, so that the order of the search does not show.
 fn rank(impact: &Impact) -> (f64, u8, f64, f64) {
     match impact.touched {
-        Touched::Face(plane) => (impact.time_s, plane.facing as u8, plane.offset, plane.start),
-        Touched::Corner(point) => (impact.time_s, 4, point.x, point.y),
+        Feature::Face(plane) => (impact.time_s, plane.facing as u8, plane.offset, plane.start),
+        Feature::Point(point) => (impact.time_s, 4, point.x, point.y),
     }
 }
 
-/// What a circle on a path touches first within `until_s`; a corner at exactly `ignored` is passed over.
+/// What a circle on a path touches first within `until_s`; a circle that has just left the point `left` does
+/// not touch it at the start.
 ///
 /// The search goes through the groups that oppose the motion, the faster coordinate first. Needs finite numbers.
 pub fn first(
@@ -362,9 +430,9 @@ pub fn first(
     path: &Path,
     radius: f64,
     until_s: f64,
-    ignored: Option<Vector2<f64>>,
+    left: Option<Vector2<f64>>,
 ) -> Option<Impact> {
-    search(planes, path, radius, until_s, ignored, &mut |_| {})
+    search(planes, path, radius, until_s, left, &mut |_| {})
 }
 
 /// What a search looks at.
@@ -383,14 +451,14 @@ pub(crate) fn search(
     path: &Path,
     radius: f64,
     until_s: f64,
-    ignored: Option<Vector2<f64>>,
+    left: Option<Vector2<f64>>,
     watch: &mut impl FnMut(Visit),
 ) -> Option<Impact> {
     let mut first = First::new(path, radius, until_s);
     // What the faster coordinate meets shortens the way for the other one.
     let axes = if path.velocity.x.abs() < path.velocity.y.abs() { [1, 0] } else { [0, 1] };
     for axis in axes {
-        first.search_axis(planes, axis, ignored, watch);
+        first.search_axis(planes, axis, left, watch);
     }
     first.impact
 }
@@ -402,11 +470,11 @@ pub fn first_scan(
     path: &Path,
     radius: f64,
     until_s: f64,
-    ignored: Option<Vector2<f64>>,
+    left: Option<Vector2<f64>>,
 ) -> Option<Impact> {
     let mut first = First::new(path, radius, until_s);
     for candidate in Facing::ALL.into_iter().flat_map(|facing| planes.faces(facing)) {
-        first.offer(&candidate, ignored);
+        first.offer(&candidate, left);
     }
     first.impact
 }

@@ -10,7 +10,11 @@
 /// Of the two forms of the root the one that adds numbers of equal sign is taken, so nothing cancels (Press et al.,
 /// "Numerical Recipes", 5.6).
 pub(crate) fn falls_through_zero(gap: f64, speed: f64, acceleration: f64) -> Option<f64> {
-    let discriminant = speed * speed - 2.0 * acceleration * gap;
+    let (square, product) = (speed * speed, 2.0 * acceleration * gap);
+    if square < SMALLEST && product.abs() < SMALLEST && (speed != 0.0 || acceleration * gap != 0.0) {
+        return falls_slowly(gap, speed, acceleration);
+    }
+    let discriminant = square - product;
     if discriminant < 0.0 {
         return None;
     }
@@ -26,6 +30,26 @@ pub(crate) fn falls_through_zero(gap: f64, speed: f64, acceleration: f64) -> Opt
         return (0.0 < fall || gap == 0.0).then_some(time);
     }
     None
+}
+
+/// Squares of speeds below this lose digits, or are 0 (denormal floats begin at 2e-308).
+const SMALLEST: f64 = 1.0e-280;
+
+/// 2⁵⁰⁰: a power of two multiplies without rounding.
+const LARGE: f64 = 3.273_390_607_896_142e150;
+
+/// [`falls_through_zero`] where squares underflow: gap, speed and acceleration times one factor fall at the same time.
+#[cold]
+fn falls_slowly(gap: f64, speed: f64, acceleration: f64) -> Option<f64> {
+    if gap == 0.0 {
+        // At zero: the fall begins at once, or after a rise.
+        return match () {
+            () if speed < 0.0 => Some(0.0),
+            () if acceleration < 0.0 => Some(2.0 * speed / -acceleration),
+            () => None,
+        };
+    }
+    falls_through_zero(gap * LARGE, speed * LARGE, acceleration * LARGE)
 }
 
 /// Most steps of a bracketed Newton iteration: bisection alone reaches neighbouring numbers in about this many.

@@ -111,13 +111,7 @@ fn bisection(n: usize, is_below: impl Fn(usize) -> bool) -> Vec<Probe> {
 impl Impact {
     /// The point of the wall that is touched by a circle whose path leads there.
     pub fn point(&self, path: &Path) -> Vector2<f64> {
-        match self.touched {
-            impact::Touched::Corner(point) => point,
-            impact::Touched::Face(plane) => {
-                let along = path.at(self.time_s)[1 - plane.facing.axis()];
-                plane.facing.point(plane.offset, along)
-            }
-        }
+        self.touched.closest_point(path.at(self.time_s))
     }
 }
 

@@ -437,7 +437,7 @@ fn an_observer_sees_every_hit_and_changes_none() {
         let pull = noise.vector() * 4.0;
         let mut n_seen = 0;
         let tick = watched
-            .tick_observed(pull, &mut |hit| {
+            .tick_observed(pull, &mut |hit: &maze_core::Hit| {
                 n_seen += 1;
                 let from_wall = hit.after.position - hit.point;
                 assert!((from_wall - hit.normal * R).norm() < 1.0e-12, "{hit:?}");

@@ -10,7 +10,7 @@
     reason = "the truth that a test compares with may be computed in any way"
 )]
 
-use maze_core::impact::{self, Path, Touched};
+use maze_core::impact::{self, Path, Feature};
 use maze_core::{Facing, Plane, SortedPlanes, contact};
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -29,7 +29,7 @@ fn of_two_touches_at_the_very_start_the_one_of_lower_rank_is_found() {
         let path = Path { position: Vector2::new(0.35, 0.35), velocity, acceleration };
         let first = impact::first(&planes, &path, 0.35, 0.03, None);
         assert_eq!(first, impact::first_scan(&planes, &path, 0.35, 0.03, None));
-        assert!(matches!(first.unwrap().touched, Touched::Face(face) if face.facing == Facing::PlusX));
+        assert!(matches!(first.unwrap().touched, Feature::Face(face) if face.facing == Facing::PlusX));
     }
 }
 
@@ -199,8 +199,8 @@ fn faces_and_corners_of_a_scene_are_told_apart() {
         acceleration: Vector2::zeros(),
     };
     let hit = |y| impact::first(&planes, &towards(y), 0.25, 9.0, None).map(|impact| impact.touched);
-    assert!(matches!(hit(0.5), Some(Touched::Face(face)) if face.facing == Facing::MinusX));
-    assert_eq!(hit(1.1), Some(Touched::Corner(Vector2::new(0.0, 1.0))));
+    assert!(matches!(hit(0.5), Some(Feature::Face(face)) if face.facing == Facing::MinusX));
+    assert_eq!(hit(1.1), Some(Feature::Point(Vector2::new(0.0, 1.0))));
     assert_eq!(hit(1.3), None);
 }
 
@@ -214,7 +214,7 @@ fn a_wall_without_thickness_is_hit_on_its_end() {
         acceleration: Vector2::zeros(),
     };
     let impact = impact::first(&planes, &down, 0.25, 9.0, None).unwrap();
-    assert_eq!((impact.time_s, impact.touched), (1.75, Touched::Corner(Vector2::new(0.0, 1.0))));
+    assert_eq!((impact.time_s, impact.touched), (1.75, Feature::Point(Vector2::new(0.0, 1.0))));
 }
 
 #[test]

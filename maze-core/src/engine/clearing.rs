@@ -1,6 +1,7 @@
 //! Where a ball is free: most ticks touch nothing, and then nothing needs to be searched.
 
 use crate::ball::Ball;
+use crate::impact::Path;
 use crate::plane::{Facing, Plane};
 use crate::sorted_planes::{SortedPlanes, WIDENED};
 use nalgebra::Vector2;
@@ -124,16 +125,22 @@ impl Clearing {
         Some(())
     }
 
-    /// The ball after a time under an acceleration, if it stays in the clearing and is pressed onto what carries it.
+    /// The ball after a time under an acceleration, and its path, if it stays in the clearing and is pressed onto what carries it.
     #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
-    pub(super) fn pass(&self, ball: Ball, acceleration: Vector2<f64>, time_s: f64) -> Option<Ball> {
+    pub(super) fn pass(&self, ball: Ball, acceleration: Vector2<f64>, time_s: f64) -> Option<(Ball, Path)> {
         let is_usual = acceleration.x.abs() + acceleration.y.abs() < STRONGEST;
         if !is_usual {
             return None;
         }
         let (x, x_speed) = self.pass_along(0, ball, acceleration.x, time_s)?;
         let (y, y_speed) = self.pass_along(1, ball, acceleration.y, time_s)?;
-        Some(Ball { position: Vector2::new(x, y), velocity: Vector2::new(x_speed, y_speed) })
+        let along = |axis: usize| if self.carried[axis] == 0.0 { acceleration[axis] } else { 0.0 };
+        let path = Path {
+            position: ball.position,
+            velocity: ball.velocity,
+            acceleration: Vector2::new(along(0), along(1)),
+        };
+        Some((Ball { position: Vector2::new(x, y), velocity: Vector2::new(x_speed, y_speed) }, path))
     }
 
     /// Coordinate and speed along one axis, computed as [`crate::impact::Path`] does.
@@ -156,7 +163,7 @@ impl Clearing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::impact::{self, Path};
+    use crate::impact;
     use proptest::prelude::*;
 
     /// Solid unit cells of a plan of five by five.
@@ -200,7 +207,7 @@ mod tests {
             let Some(clearing) = Clearing::around(&planes, ball, radius, &[None; 2]) else { return Ok(()) };
             for (x, y) in velocities {
                 let (velocity, acceleration) = (Vector2::new(x, y), Vector2::new(pull.0, pull.1));
-                if let Some(ball) = clearing.pass(Ball { position, velocity }, acceleration, 0.05) {
+                if let Some((ball, _)) = clearing.pass(Ball { position, velocity }, acceleration, 0.05) {
                     let path = Path { position, velocity, acceleration };
                     prop_assert_eq!(impact::first_scan(&planes, &path, radius, 0.05, None), None);
                     prop_assert_eq!(ball, Ball { position: path.at(0.05), velocity: path.velocity_at(0.05) });
@@ -231,7 +238,7 @@ mod tests {
         let clearing = Clearing::around(&planes, Ball::at(centre), 0.25, &[None, floor]).unwrap();
         assert_eq!((clearing.low.y, clearing.high.y, clearing.carried.y), (0.25, 0.25, 1.0));
         let roll = |pull: Vector2<f64>| clearing.pass(Ball::at(centre), pull, 0.03);
-        assert!(roll(Vector2::new(1.0, -1.0)).is_some_and(|ball| ball.position.y == 0.25));
+        assert!(roll(Vector2::new(1.0, -1.0)).is_some_and(|(ball, _)| ball.position.y == 0.25));
         // Let go, or rolled into the wall, it is the search's again.
         assert_eq!((roll(Vector2::new(1.0, 1.0)), roll(Vector2::new(1000.0, -1.0))), (None, None));
     }

@@ -1,26 +1,28 @@
-//! The exact engine: within a tick the ball moves on a parabola from touch to touch, without substeps or penetration.
+//! The exact engine: within a tick the ball moves from event to event, in flight on a parabola, on a face along it, around a
+//! point on an arc, without substeps or penetration.
 
 use super::clearing::Clearing;
-use super::pivot::{self, Pivot};
-use super::{Engine, Hit, Log, Tick};
+use super::collision::{self, Surface};
+use super::roll::{self, Pivot, tangent};
+use super::state::{BallState, Contact, Contacts};
+use super::{Arc as RolledArc, Engine, Hit, Log, Observer, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact;
-use crate::impact::{self, Impact, Path, TOUCH, Touched};
+use crate::impact::{self, Feature, Path};
 use crate::plane::Plane;
 use crate::roots::falls_through_zero;
 use crate::sorted_planes::SortedPlanes;
+use crate::tolerance::{self, TANGENT};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// A ball whose next bounce would rise less than this (units) comes to rest: large against rounding at 100 units (1.4e-14),
-/// small against a pixel (about 1e-2). Infinitely many ever smaller bounces end here.
-pub const REST_APEX: f64 = 1.0e-9;
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces that lose little come
+/// close together before they end in rest, some ln(1 / (1 - e)) / (1 - e) of them: this is enough for e = 0.998 in the
+/// steepest board. A ball without loss that is hammered against a wall has more, and the time that is left is dropped and
+/// reported.
+pub const MAX_EVENTS: u32 = 4096;
 
-/// Most events in a tick (touches, face ends, lift-offs). Real play has a handful; a ball hammered at 10⁴ units/s in a gap
-/// of 1e-6 has more, and the time that is left is dropped and reported.
-pub const MAX_EVENTS: u32 = 256;
-
-/// Longest tick (s): a ball pressed onto a corner is followed in small steps for as long as a tick lasts.
+/// Longest tick (s).
 pub const MAX_TICK_S: f64 = 1000.0;
 
 /// Most walls a ball that starts inside of them is pushed out of, one after the other.
@@ -32,29 +34,31 @@ const WORTHWHILE: f64 = 0.25;
 /// Ticks until a clearing is looked for again where there was none: between walls without thickness, say.
 const PATIENCE: u32 = 8;
 
-/// What carries the ball.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Support {
-    /// A face across x and one across y that the ball is pressed onto and may slide along.
-    faces: [Option<Plane>; 2],
-    /// A corner that it rolls around.
-    corner: Option<Pivot>,
+/// A place where the ball was at the last hit or lift-off.
+#[derive(Clone, Copy, Debug, Default)]
+struct Recent {
+    /// The last hit: where the ball was, and the normal.
+    hit: Option<(Vector2<f64>, Vector2<f64>)>,
+    /// The point that the ball has just lifted off from.
+    left: Option<Vector2<f64>>,
 }
 
 /// The exact engine. Its motion does not depend on the tick's length (but for rolling resistance, which is taken at the end
-/// of each tick), nor its cost on the speed.
+/// of each tick), nor its cost on the speed. The same inputs give the same bits on every platform.
 #[derive(Clone, Debug)]
 #[repr(C)] // What the usual tick needs comes first, in two cache lines.
 pub struct Continuous {
     ball: Ball,
-    /// Where nothing is touched, as found at the end of the last tick that was searched, for what carried the ball then.
+    /// Where nothing is touched, as found at the end of the last tick that was searched, for what supported the ball then.
     clearing: Option<Clearing>,
     tick_s: f64,
     spec: BallSpec,
     planes: Arc<SortedPlanes>,
-    support: Support,
+    contacts: Contacts,
     /// Whether the ball was put here from outside and may lie inside a wall.
     is_placed: bool,
+    /// Whether a clearing is looked for at all.
+    is_cached: bool,
     /// Ticks to wait for until a clearing is looked for again.
     n_ticks_to_wait: u32,
 }
@@ -76,86 +80,90 @@ impl Continuous {
             return Err(OutOfRange { what: "the tick's length", expected });
         }
         let (spec, ball) = (spec.checked()?, ball.checked()?);
-        let support = Support::default();
-        let (clearing, n_ticks_to_wait) = (None, 0);
-        Ok(Self { ball, clearing, tick_s, spec, planes, support, is_placed: true, n_ticks_to_wait })
+        Ok(Self {
+            ball,
+            clearing: None,
+            tick_s,
+            spec,
+            planes,
+            contacts: Contacts::default(),
+            is_placed: true,
+            is_cached: true,
+            n_ticks_to_wait: 0,
+        })
+    }
+
+    /// The same engine that searches in every tick: what the cache is tested and measured against.
+    #[must_use]
+    pub fn without_cache(self) -> Self {
+        Self { is_cached: false, clearing: None, ..self }
+    }
+
+    /// The ball and what supports it.
+    pub fn state(&self) -> BallState {
+        BallState { ball: self.ball, contacts: self.contacts }
     }
 
     fn radius(&self) -> f64 {
         self.spec.radius.units()
     }
 
-    /// Lets go of faces that the acceleration no longer presses the ball onto.
-    fn release(&mut self, acceleration: Vector2<f64>) {
-        for support in &mut self.support.faces {
-            let is_pressed = |face: &Plane| acceleration[face.facing.axis()] * face.facing.sign() < 0.0;
-            if !support.as_ref().is_none_or(is_pressed) {
-                *support = None;
-            }
-        }
-    }
-
-    /// The ball's path from now on: what a face carries does not accelerate into it.
+    /// The ball's path from now on, along what supports it.
     fn path(&self, acceleration: Vector2<f64>) -> Path {
-        let mut path = Path { position: self.ball.position, velocity: self.ball.velocity, acceleration };
-        for face in self.support.faces.into_iter().flatten() {
-            path.acceleration[face.facing.axis()] = 0.0;
-        }
-        path
+        let Ball { position, velocity } = self.ball;
+        Path { position, velocity, acceleration: self.contacts.along(acceleration) }
     }
 
-    /// When and off which end the ball slides off a face that carries it.
-    fn slides_off(&self, path: &Path) -> Option<(f64, Plane, Vector2<f64>)> {
-        let mut first: Option<(f64, Plane, Vector2<f64>)> = None;
-        for face in self.support.faces.iter().flatten() {
-            let axis = 1 - face.facing.axis();
-            let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
-            let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
-            let lower =
-                falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
-            for (time_s, end) in [upper, lower].into_iter().flatten() {
-                if first.is_none_or(|(first_s, ..)| time_s < first_s) {
-                    first = Some((time_s, *face, face.facing.point(face.offset, end)));
-                }
-            }
-        }
-        first
+    /// When and off which end the ball slides off the face that supports it.
+    fn slides_off(&self, path: &Path) -> Option<(f64, Vector2<f64>)> {
+        let Some(Contact { feature: Feature::Face(face), .. }) = self.contacts.single() else { return None };
+        let axis = 1 - face.facing.axis();
+        let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
+        let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
+        let lower = falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
+        let (time_s, end) = match (upper, lower) {
+            (Some(upper), Some(lower)) => if lower.0 < upper.0 { lower } else { upper },
+            (upper, lower) => upper.or(lower)?,
+        };
+        Some((time_s, face.facing.point(face.offset, end)))
     }
 
-    /// Moves along a path; a face that carries the ball keeps it exactly at its radius.
-    fn advance(&mut self, path: &Path, time_s: f64) {
+    /// Moves along a path; a face that supports the ball keeps it exactly at its radius.
+    fn advance<O: Observer + ?Sized>(&mut self, path: &Path, time_s: f64, log: &mut Log<O>) {
+        log.observer.flight(path, time_s);
         self.ball = Ball { position: path.at(time_s), velocity: path.velocity_at(time_s) };
-        for face in self.support.faces.into_iter().flatten() {
-            let axis = face.facing.axis();
-            self.ball.position[axis] = face.offset + face.facing.sign() * self.radius();
-            self.ball.velocity[axis] = 0.0;
+        if let Some(Contact { feature, normal }) = self.contacts.single() {
+            self.ball.position = feature.touching(self.ball.position, normal, self.radius());
+            self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
         }
     }
 
     /// Flies or slides until the next event or for `left_s`; returns the time that passed.
-    fn fly(&mut self, acceleration: Vector2<f64>, left_s: f64, log: &mut Log) -> f64 {
+    fn fly<O: Observer + ?Sized>(
+        &mut self,
+        acceleration: Vector2<f64>,
+        left_s: f64,
+        recent: &mut Recent,
+        log: &mut Log<O>,
+    ) -> f64 {
         let path = self.path(acceleration);
-        let impact = impact::first(&self.planes, &path, self.radius(), left_s, None);
+        let impact = impact::first(&self.planes, &path, self.radius(), left_s, recent.left.take());
         let until_s = impact.map_or(left_s, |impact| impact.time_s);
-        if let Some((time_s, face, point)) = self.slides_off(&path)
+        if let Some((time_s, point)) = self.slides_off(&path)
             && time_s < until_s
         {
-            self.advance(&path, time_s);
-            self.support.faces[face.facing.axis()] = None;
-            // Off the end the ball either flies on or, when it is too slow, rolls around the corner.
-            self.ball.position[1 - face.facing.axis()] = point[1 - face.facing.axis()];
-            self.support.corner = Pivot::at(&self.planes, point);
+            self.advance(&path, time_s, log);
+            // Over the very end the ball stands on the point there: it lifts off at once if it is fast, or rolls around it.
+            if let Some(Contact { feature: Feature::Face(face), normal }) = self.contacts.single() {
+                let axis = 1 - face.facing.axis();
+                self.ball.position[axis] = point[axis];
+                self.contacts.set(Contact { feature: Feature::Point(point), normal });
+            }
             return time_s;
         }
-        self.advance(&path, until_s);
-        match impact {
-            Some(Impact { touched: Touched::Face(face), .. }) => {
-                self.bounce_off_face(face, acceleration, log)
-            }
-            Some(Impact { touched: Touched::Corner(point), .. }) => {
-                self.bounce_off_corner(point, acceleration, log);
-            }
-            None => {}
+        self.advance(&path, until_s, log);
+        if let Some(impact) = impact {
+            self.hit(impact.touched, acceleration, recent, log);
         }
         until_s
     }
@@ -166,80 +174,115 @@ impl Continuous {
             self.n_ticks_to_wait -= 1;
             return;
         }
-        let is_free = self.support.corner.is_none() && self.spec.resistance == 0.0;
-        if is_free && self.ball.velocity.amax() * self.tick_s < WORTHWHILE * self.radius() {
-            self.clearing = Clearing::around(&self.planes, self.ball, self.radius(), &self.support.faces);
+        let mut carriers = [None; 2];
+        for contact in self.contacts.iter() {
+            let Feature::Face(face) = contact.feature else { return };
+            carriers[face.facing.axis()] = Some(face);
+        }
+        let is_slow = self.ball.velocity.amax() * self.tick_s < WORTHWHILE * self.radius();
+        if self.is_cached && self.spec.resistance == 0.0 && is_slow {
+            self.clearing = Clearing::around(&self.planes, self.ball, self.radius(), &carriers);
             self.n_ticks_to_wait = if self.clearing.is_some() { 0 } else { PATIENCE };
         }
     }
 
-    fn bounce_off_face(&mut self, face: Plane, acceleration: Vector2<f64>, log: &mut Log) {
-        let (axis, sign, before) = (face.facing.axis(), face.facing.sign(), self.ball);
-        // Exactly at the radius: a gap of one rounding would make ghost touches of the corners.
-        self.ball.position[axis] = face.offset + sign * self.radius();
-        let speed = -self.ball.velocity[axis] * sign;
-        let rebound = self.spec.restitution * speed;
-        if is_rest(rebound, acceleration[axis] * sign) {
-            self.ball.velocity[axis] = 0.0;
-            self.support.faces[axis] = Some(face);
-            log.tick.n_rests += 1;
-        } else {
-            self.ball.velocity[axis] = sign * rebound;
+    /// How strongly the acceleration presses the ball onto a feature (units/s²), where another one may support it.
+    fn pressing(acceleration: Vector2<f64>, normal: Vector2<f64>, support: Option<Vector2<f64>>) -> f64 {
+        let alone = -acceleration.dot(&normal);
+        let along = support.map_or(alone, |support| {
+            let pressed = acceleration.dot(&support);
+            if pressed < 0.0 { -(acceleration - support * pressed).dot(&normal) } else { alone }
+        });
+        let pressing = if alone < along { along } else { alone };
+        if 0.0 < pressing { pressing } else { 0.0 }
+    }
+
+    /// Puts the ball exactly onto a feature that it has reached, and changes its velocity.
+    fn hit<O: Observer + ?Sized>(
+        &mut self,
+        feature: Feature,
+        acceleration: Vector2<f64>,
+        recent: &mut Recent,
+        log: &mut Log<O>,
+    ) {
+        let (before, radius) = (self.ball, self.radius());
+        let Some(normal) = feature.normal_at(before.position) else { return };
+        let position = feature.touching(before.position, normal, radius);
+        let support = self.contacts.single();
+        // A feature that was hit at the same place a moment ago still is touched.
+        let snap = tolerance::snap(radius, position);
+        let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, normal)| normal);
+        let other = support.map(|support| support.normal).or(again);
+        let surface = |normal: Vector2<f64>, other: Option<Vector2<f64>>, is_active: bool| Surface {
+            normal,
+            rest_speed: tolerance::rest_speed(radius, Self::pressing(acceleration, normal, other)),
+            is_active,
+        };
+        let hit = surface(normal, other, false);
+        let other = other.map(|other| surface(other, Some(normal), support.is_some()));
+        let outcome =
+            collision::collide(before.velocity, &hit, other.as_ref(), self.spec.restitution);
+        self.ball = Ball { position, velocity: outcome.velocity };
+        let contact = Contact { feature, normal };
+        match (outcome.rests_on, support) {
+            ([true, true], Some(support)) => self.contacts.set_two([support, contact]),
+            ([true, _], _) => self.contacts.set(contact),
+            ([false, true], Some(support)) => self.contacts.set(support),
+            _ => self.contacts.clear(),
         }
-        let point = face.facing.point(face.offset, before.position[1 - axis]);
-        let normal = face.facing.normal();
+        recent.hit = Some((position, normal));
+        log.tick.n_rests += u32::from(outcome.rests_on[0]);
+        log.tick.n_corner_hits += u32::from(matches!(feature, Feature::Point(_)));
+        let point = feature.closest_point(position);
+        let speed = -before.velocity.dot(&normal);
         log.note_hit(speed, &Hit { point, normal, penetration: 0.0, before, after: self.ball });
     }
 
-    fn bounce_off_corner(&mut self, point: Vector2<f64>, acceleration: Vector2<f64>, log: &mut Log) {
-        let before = self.ball;
-        let Some(normal) = (before.position - point).try_normalize(0.0) else { return };
-        self.ball.position = point + normal * self.radius();
-        let speed = -self.ball.velocity.dot(&normal);
-        let rebound = self.spec.restitution * speed;
-        log.tick.n_corner_hits += 1;
-        self.ball.velocity += normal * (speed + rebound);
-        // A face that carried the ball either gets it back at once, or has lost it.
-        self.support.faces = [None; 2];
-        if is_rest(rebound, acceleration.dot(&normal)) {
-            self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
-            self.support.corner = Pivot::at(&self.planes, point);
-            log.tick.n_rests += 1;
-        }
-        log.note_hit(speed, &Hit { point, normal, penetration: 0.0, before, after: self.ball });
-    }
-
-    /// Rolls around a corner until the next event or for `left_s`; returns the time that passed.
-    fn roll(&mut self, pivot: Pivot, acceleration: Vector2<f64>, left_s: f64, log: &mut Log) -> f64 {
-        let roll = pivot.roll(&self.planes, self.ball, self.radius(), acceleration, left_s);
-        self.ball = roll.ball;
+    /// Rolls around a point until the next event or for `left_s`; returns the time that passed.
+    fn roll<O: Observer + ?Sized>(
+        &mut self,
+        point: Vector2<f64>,
+        normal: Vector2<f64>,
+        acceleration: Vector2<f64>,
+        left_s: f64,
+        recent: &mut Recent,
+        log: &mut Log<O>,
+    ) -> f64 {
+        let pivot = Pivot { planes: &self.planes, point, radius: self.radius(), acceleration };
+        let speed = self.ball.velocity.dot(&tangent(normal));
+        let roll = pivot.roll(normal, speed, left_s);
+        let arc = RolledArc { point, radius: self.radius(), from: normal, to: roll.normal };
+        log.observer.roll(&arc, roll.time_s);
+        self.ball = pivot.ball(roll.normal, roll.speed);
+        self.contacts.set(Contact { feature: Feature::Point(point), normal: roll.normal });
         match roll.end {
-            pivot::End::Time => {}
-            pivot::End::LiftOff => self.support.corner = None,
-            pivot::End::Face(face) => {
-                self.support = Support::default();
-                self.support.faces[face.facing.axis()] = Some(face);
+            roll::End::Time | roll::End::Turn => {}
+            roll::End::LiftOff => {
+                self.contacts.clear();
+                recent.left = Some(point);
             }
-            pivot::End::Hit(impact) => {
-                let before = self.ball.velocity;
-                match impact.touched {
-                    Touched::Face(face) => self.bounce_off_face(face, Vector2::zeros(), log),
-                    Touched::Corner(point) => self.bounce_off_corner(point, Vector2::zeros(), log),
+            roll::End::Touch(feature) => {
+                if !self.rolls_onto(feature, roll.normal) {
+                    self.hit(feature, acceleration, recent, log);
                 }
-                // Pressed into the gap between the corner and what was hit: it stays there while the tick lasts.
-                let pull = acceleration.norm();
-                if self.ball.velocity.norm_squared() < 2.0 * pull * REST_APEX
-                    && before.norm_squared() < 2.0 * pull * REST_APEX
-                {
-                    self.ball.velocity = Vector2::zeros();
-                    self.support = Support { corner: Some(pivot), ..Support::default() };
-                    log.tick.n_rests += 1;
-                    return left_s;
-                }
-                self.support.corner = None;
             }
         }
         roll.time_s
+    }
+
+    /// Goes on along a feature that the arc leads onto without a hit: the face where an arc ends, or a point so near that the
+    /// ball moves along it.
+    fn rolls_onto(&mut self, feature: Feature, from: Vector2<f64>) -> bool {
+        let Some(normal) = feature.normal_at(self.ball.position) else { return false };
+        let (approach, speed) = (-self.ball.velocity.dot(&normal), self.ball.velocity.norm());
+        // A ball that does not move may be held by both, which a hit finds out.
+        let is_smooth = 0.0 < speed && approach <= TANGENT * speed && 0.0 < from.dot(&normal);
+        if is_smooth {
+            self.ball.position = feature.touching(self.ball.position, normal, self.radius());
+            self.ball.velocity += normal * approach;
+            self.contacts.set(Contact { feature, normal });
+        }
+        is_smooth
     }
 
     /// Refuses what is not finite, and what would leave the range of numbers within the tick, squares included.
@@ -255,89 +298,131 @@ impl Continuous {
         }
     }
 
-    /// Goes from event to event until the tick is over.
-    fn pass(&mut self, acceleration: Vector2<f64>, log: &mut Log) {
+    /// Goes from event to event until the tick is over; returns how many there were.
+    fn pass<O: Observer + ?Sized>(&mut self, acceleration: Vector2<f64>, log: &mut Log<O>) -> u32 {
         let mut left_s = self.tick_s;
-        for _ in 0..MAX_EVENTS {
-            left_s -= match self.support.corner {
-                Some(pivot) => self.roll(pivot, acceleration, left_s, log),
-                None => self.fly(acceleration, left_s, log),
+        let mut recent = Recent::default();
+        for n_events in 1..=MAX_EVENTS {
+            self.contacts.settle(acceleration);
+            left_s -= match self.contacts.single() {
+                _ if self.contacts.are_two() => self.rest(left_s, log),
+                Some(Contact { feature: Feature::Point(point), normal }) => {
+                    self.roll(point, normal, acceleration, left_s, &mut recent, log)
+                }
+                _ => self.fly(acceleration, left_s, &mut recent, log),
             };
             if left_s <= 0.0 {
-                return;
+                return n_events;
             }
         }
         log.tick.dropped_s = left_s;
+        MAX_EVENTS
     }
 
-    /// Whether rolling resistance keeps the ball where it is, on the floor or along what carries it.
+    /// Stays between two contacts.
+    fn rest<O: Observer + ?Sized>(&mut self, left_s: f64, log: &mut Log<O>) -> f64 {
+        self.ball.velocity = Vector2::zeros();
+        let path = Path { position: self.ball.position, velocity: Vector2::zeros(), acceleration: Vector2::zeros() };
+        log.observer.flight(&path, left_s);
+        left_s
+    }
+
+    /// Whether rolling resistance keeps the ball where it is, on the floor or along what supports it.
     fn is_held(&self, acceleration: Vector2<f64>) -> bool {
+        let is_on_point = |contact: Contact| matches!(contact.feature, Feature::Point(_));
         0.0 < self.spec.resistance
-            && self.support.corner.is_none()
+            && !self.contacts.iter().any(is_on_point)
             && self.spec.holds(self.ball.velocity, self.path(acceleration).acceleration, self.tick_s)
     }
 
-    /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first.
-    fn recover(&mut self, log: &mut Log) {
+    /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first; returns the deepest (units).
+    fn depenetrate(&mut self) -> f64 {
+        let mut deepest_of_all = 0.0;
         for _ in 0..MAX_RECOVERIES {
             let centre = self.ball.position;
             let radius = self.radius();
+            let touch = tolerance::touch(radius, centre);
             let deepest = self
                 .planes
                 .planes_within(centre, radius)
                 .filter_map(|plane| contact::find(centre, radius, &plane))
-                .filter(|contact| TOUCH < contact.penetration)
+                .filter(|contact| touch < contact.penetration)
                 .max_by(|a, b| a.penetration.total_cmp(&b.penetration));
-            let Some(contact) = deepest else { return };
+            let Some(contact) = deepest else { break };
             let facing = contact.plane.facing;
             let front = (centre[facing.axis()] - contact.plane.offset) * facing.sign();
             // In front, away from the closest point; behind, through the face.
             let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
             self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
-            log.tick.recovered = true;
-            log.note_penetration(contact.penetration);
+            if deepest_of_all < contact.penetration {
+                deepest_of_all = contact.penetration;
+            }
         }
-    }
-}
-
-/// Whether a bounce that leaves with this speed against a pressing acceleration is one too small to follow.
-fn is_rest(rebound: f64, normal_acceleration: f64) -> bool {
-    normal_acceleration < 0.0 && rebound * rebound < -2.0 * normal_acceleration * REST_APEX
-}
-
-impl Engine for Continuous {
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
-        if let Some(clearing) = &self.clearing
-            && let Some(ball) = clearing.pass(self.ball, acceleration * self.spec.rolling, self.tick_s)
-        {
-            self.ball = ball;
-            return Ok(Tick { n_steps: 1, ..Tick::default() });
-        }
-        self.tick_observed(acceleration, &mut |_| {})
+        deepest_of_all
     }
 
-    fn tick_observed(
+    /// Checks the state that is about to be returned by a plain query that knows nothing of contacts and events: a ball that
+    /// came from outside and is deeper in a wall than it may be is put outside, and that is reported.
+    fn guard<O: Observer + ?Sized>(&mut self, from: Vector2<f64>, log: &mut Log<O>) {
+        let (centre, radius) = (self.ball.position, self.radius());
+        // A face has no back: whoever comes from behind it passes.
+        let is_in_front =
+            |centre: Vector2<f64>, plane: &Plane| 0.0 <= (centre[plane.facing.axis()] - plane.offset) * plane.facing.sign();
+        let within = radius - tolerance::overlap(radius, centre);
+        let is_inside = |plane: Plane| is_in_front(centre, &plane) || is_in_front(from, &plane);
+        let is_overlapped = self.planes.planes_within(centre, within).any(is_inside);
+        if is_overlapped {
+            log.tick.corrected_overlap = self.depenetrate();
+            self.contacts.clear();
+        }
+    }
+
+    /// A tick that is searched.
+    fn search<O: Observer + ?Sized>(
         &mut self,
         acceleration: Vector2<f64>,
-        observer: &mut dyn FnMut(&Hit),
+        observer: &mut O,
     ) -> Result<Tick, OutOfRange> {
-        let acceleration = acceleration * self.spec.rolling;
         self.expect_finite_end(acceleration)?;
         self.clearing = None;
         let mut log = Log { tick: Tick { n_steps: 1, ..Tick::default() }, observer };
         if self.is_placed {
-            self.recover(&mut log);
             self.is_placed = false;
+            let depth = self.depenetrate();
+            log.tick.recovered = 0.0 < depth;
+            log.note_penetration(depth);
         }
-        self.release(acceleration);
+        self.contacts.settle(acceleration);
         if self.is_held(acceleration) {
             self.ball.velocity = Vector2::zeros();
             return Ok(log.tick);
         }
-        self.pass(acceleration, &mut log);
+        let from = self.ball.position;
+        let n_events = self.pass(acceleration, &mut log);
+        if 1 < n_events || !self.contacts.is_empty() {
+            self.guard(from, &mut log);
+        }
         self.look_around();
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(log.tick)
+    }
+}
+
+impl Engine for Continuous {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
+        let acceleration = acceleration * self.spec.rolling;
+        if let Some(clearing) = &self.clearing
+            && let Some((ball, path)) = clearing.pass(self.ball, acceleration, self.tick_s)
+        {
+            self.ball = ball;
+            observer.flight(&path, self.tick_s);
+            return Ok(Tick { n_steps: 1, ..Tick::default() });
+        }
+        self.search(acceleration, observer)
     }
 
     fn ball(&self) -> Ball {
@@ -346,7 +431,7 @@ impl Engine for Continuous {
 
     fn place(&mut self, ball: Ball) -> Result<(), OutOfRange> {
         self.ball = ball.checked()?;
-        self.support = Support::default();
+        self.contacts.clear();
         self.is_placed = true;
         self.clearing = None;
         Ok(())

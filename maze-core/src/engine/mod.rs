@@ -1,14 +1,18 @@
 //! Engines: what moves the ball through one tick.
 
 mod clearing;
+mod collision;
 pub mod continuous;
-mod pivot;
 pub mod published;
+mod roll;
+mod state;
 
 pub use continuous::Continuous;
 pub use published::Published;
+pub use state::{BallState, Contact, Contacts};
 
 use crate::ball::{Ball, BallSpec, OutOfRange};
+use crate::impact::Path;
 use nalgebra::Vector2;
 
 /// What happened within one tick.
@@ -32,6 +36,9 @@ pub struct Tick {
     pub deepest_penetration: f64,
     /// Time that was not simulated because a bound was reached (s).
     pub dropped_s: f64,
+    /// Overlap that the exact engine's last check found at the end of the tick and removed (units). It is 0 unless the engine
+    /// has a fault: what it returns is outside of every wall all the same.
+    pub corrected_overlap: f64,
 }
 
 /// One hit, as the engine saw it.
@@ -49,20 +56,61 @@ pub struct Hit {
     pub after: Ball,
 }
 
-/// What is noted while a tick is computed: the sums, and for who asks every hit.
-struct Log<'a> {
-    tick: Tick,
-    observer: &'a mut dyn FnMut(&Hit),
+/// Watches a tick: each stretch of motion and each hit, in the order in which they happen.
+///
+/// A function of a [`Hit`] is an observer that is shown hits alone; `()` is one that is shown nothing.
+pub trait Observer {
+    /// The centre moved along a path for a time (s); a ball at rest does so on a path without velocity and acceleration.
+    fn flight(&mut self, path: &Path, duration_s: f64) {
+        let _ = (path, duration_s);
+    }
+
+    /// The centre moved on an arc for a time (s).
+    fn roll(&mut self, arc: &Arc, duration_s: f64) {
+        let _ = (arc, duration_s);
+    }
+
+    /// The velocity was changed by a wall.
+    fn hit(&mut self, hit: &Hit) {
+        let _ = hit;
+    }
 }
 
-impl Log<'_> {
+impl Observer for () {}
+
+impl<F: FnMut(&Hit)> Observer for F {
+    fn hit(&mut self, hit: &Hit) {
+        self(hit);
+    }
+}
+
+/// A stretch of rolling around a point: the shorter way from one direction to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// The middle of the circle on which the ball's centre moves.
+    pub point: Vector2<f64>,
+    /// Its radius: that of the ball (units).
+    pub radius: f64,
+    /// Unit vector from the point to the centre at the start.
+    pub from: Vector2<f64>,
+    /// The same at the end.
+    pub to: Vector2<f64>,
+}
+
+/// What is noted while a tick is computed: the sums, and for who asks every hit.
+struct Log<'a, O: Observer + ?Sized> {
+    tick: Tick,
+    observer: &'a mut O,
+}
+
+impl<O: Observer + ?Sized> Log<'_, O> {
     /// Counts a hit with this normal speed (units/s).
     fn note_hit(&mut self, speed: f64, hit: &Hit) {
         self.tick.n_hits += 1;
         if self.tick.hardest_hit_speed < speed {
             self.tick.hardest_hit_speed = speed;
         }
-        (self.observer)(hit);
+        self.observer.hit(hit);
     }
 
     /// Remembers a penetration (units) when it is the deepest.
@@ -74,26 +122,24 @@ impl Log<'_> {
 }
 
 /// A way to compute the ball's motion.
-///
-/// The same inputs give the same bits on every platform.
 pub trait Engine {
-    /// Advances by one tick under a constant acceleration in the maze plane (units/s²).
+    /// Advances by one tick under a constant acceleration in the maze plane (units/s²), and shows an observer what happens.
+    /// An engine that cannot tell shows nothing.
     ///
     /// # Errors
     /// An acceleration that is not finite, or one that makes the velocity so; the ball stays as it was.
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange>;
-
-    /// [`Engine::tick`] that also shows each hit as it happens. An engine that cannot tell shows none.
-    ///
-    /// # Errors
-    /// As [`Engine::tick`].
     fn tick_observed(
         &mut self,
         acceleration: Vector2<f64>,
-        observer: &mut dyn FnMut(&Hit),
-    ) -> Result<Tick, OutOfRange> {
-        let _ = observer;
-        self.tick(acceleration)
+        observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange>;
+
+    /// [`Engine::tick_observed`] that nobody watches.
+    ///
+    /// # Errors
+    /// As [`Engine::tick_observed`].
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        self.tick_observed(acceleration, &mut ())
     }
 
     /// Where the ball is now.

@@ -1,7 +1,7 @@
 //! The report's method, step for step. Its weaknesses (corners reflect about a face's normal, push-out changes the
 //! energy, the cost grows with the speed) are kept and measured, not hidden.
 
-use super::{Engine, Hit, Log, Tick};
+use super::{Engine, Hit, Log, Observer, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact::{self, Contact};
 use crate::plane::Facing;
@@ -50,7 +50,7 @@ impl Published {
     }
 
     /// Moves by `step_s`, then resolves what is overlapped.
-    fn step(&mut self, step_s: f64, log: &mut Log) {
+    fn step(&mut self, step_s: f64, log: &mut Log<dyn Observer + '_>) {
         self.ball.position += self.ball.velocity * step_s;
         for _ in 0..MAX_CONTACTS_PER_STEP {
             let Some(contact) = self.next_contact() else { return };
@@ -80,14 +80,10 @@ fn steps_for(displacement: f64, radius: f64) -> (u32, f64) {
 }
 
 impl Engine for Published {
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
-        self.tick_observed(acceleration, &mut |_| {})
-    }
-
     fn tick_observed(
         &mut self,
         acceleration: Vector2<f64>,
-        observer: &mut dyn FnMut(&Hit),
+        observer: &mut dyn Observer,
     ) -> Result<Tick, OutOfRange> {
         let velocity = self.ball.velocity + acceleration * (self.spec.rolling * Self::TICK_S);
         let is_finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());

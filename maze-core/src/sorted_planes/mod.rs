@@ -182,14 +182,6 @@ impl SortedPlanes {
         })
     }
 
-    /// The plane of one facing that starts or ends at a point.
-    pub(crate) fn ending_at(&self, facing: Facing, point: Vector2<f64>) -> Option<Plane> {
-        let (across, along) = (point[facing.axis()], point[1 - facing.axis()]);
-        let row = self.rows_within(facing, [across, across]).next()?;
-        let mut planes = row.within([along, along]).map(|face| face.plane);
-        planes.find(|plane| plane.start == along || plane.end == along)
-    }
-
     fn group(&self, facing: Facing) -> &Group {
         &self.groups[facing as usize]
     }

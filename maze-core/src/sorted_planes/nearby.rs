@@ -1,6 +1,6 @@
 //! What is near a point, whichever way it moves.
 
-use super::{SortedPlanes, WIDENED, is_within};
+use super::{Face, SortedPlanes, WIDENED, is_within};
 use crate::plane::{Facing, Plane};
 use nalgebra::Vector2;
 
@@ -47,13 +47,17 @@ impl SortedPlanes {
     ///
     /// Needs finite numbers. O(log n) for each row within reach.
     pub fn planes_within(&self, centre: Vector2<f64>, reach: f64) -> impl Iterator<Item = Plane> {
+        self.faces_around(centre, reach).map(|face| face.plane)
+    }
+
+    /// The same planes, with what is known about their ends.
+    pub(crate) fn faces_around(&self, centre: Vector2<f64>, reach: f64) -> impl Iterator<Item = Face> {
         let wide = reach * WIDENED;
         Facing::ALL.into_iter().flat_map(move |facing| {
             let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
             self.rows_within(facing, [across - wide, across + wide])
                 .flat_map(move |row| row.within([along - wide, along + wide]))
-                .map(|face| face.plane)
-                .filter(move |plane| is_within(plane.offset - across, plane.gap(along), reach))
+                .filter(move |face| is_within(face.plane.offset - across, face.plane.gap(along), reach))
         })
     }
 

@@ -1,0 +1,134 @@
+//! The state of a ball: position, velocity, and the contacts that support it.
+
+use crate::ball::Ball;
+use crate::impact::Feature;
+use crate::tolerance;
+use nalgebra::Vector2;
+
+/// An active contact: the ball touches the feature, does not move along its normal, and is pressed onto it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// What is touched.
+    pub feature: Feature,
+    /// Unit normal, from the feature to the ball's centre.
+    pub normal: Vector2<f64>,
+}
+
+/// At most two active contacts; with two, the ball is at rest. More than two are redundant in the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contacts([Option<Contact>; 2]); // `None` only before another `None`.
+
+/// A ball and what supports it: all that the motion of the next tick depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BallState {
+    /// Where it is and how it moves.
+    pub ball: Ball,
+    /// What it rests on, slides along or rolls around.
+    pub contacts: Contacts,
+}
+
+impl Contacts {
+    /// Each of them.
+    pub fn iter(&self) -> impl Iterator<Item = Contact> {
+        self.0.into_iter().flatten()
+    }
+
+    /// Whether nothing supports the ball.
+    pub fn is_empty(&self) -> bool {
+        self.0[0].is_none()
+    }
+
+    /// Whether two contacts hold the ball.
+    pub(super) fn are_two(&self) -> bool {
+        self.0[1].is_some()
+    }
+
+    /// The one contact of a ball that moves along something.
+    pub(super) fn single(&self) -> Option<Contact> {
+        self.0[0]
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.0 = [None; 2];
+    }
+
+    pub(super) fn set(&mut self, contact: Contact) {
+        self.0 = [Some(contact), None];
+    }
+
+    pub(super) fn set_two(&mut self, contacts: [Contact; 2]) {
+        self.0 = contacts.map(Some);
+    }
+
+    /// Breaks contacts that the acceleration does not press the ball onto.
+    ///
+    /// With two contacts, a = -(α n₁ + β n₂): the ball rests where α and β are 0 or more. Else the contact with the negative
+    /// coefficient breaks, and along the other one the ball moves away from it.
+    pub(super) fn settle(&mut self, acceleration: Vector2<f64>) {
+        let is_pressed = |contact: &Contact| acceleration.dot(&contact.normal) < 0.0;
+        if let [Some(one), Some(two)] = self.0 {
+            let cross = one.normal.perp(&two.normal);
+            let rounding = tolerance::CONE * acceleration.norm();
+            let side = if cross < 0.0 { -1.0 } else { 1.0 };
+            let alpha = side * two.normal.perp(&acceleration);
+            let beta = side * acceleration.perp(&one.normal);
+            let (presses_one, presses_two) = (-rounding <= alpha, -rounding <= beta);
+            let is_opposite = cross.abs() < tolerance::PASSING;
+            if presses_one && presses_two && !is_opposite {
+                return;
+            }
+            let keeps_one = if is_opposite { is_pressed(&one) } else { presses_one };
+            self.set(if keeps_one { one } else { two });
+        }
+        // On the arc around a point the speed counts too.
+        let is_broken =
+            |contact: Contact| matches!(contact.feature, Feature::Face(_)) && !is_pressed(&contact);
+        if self.single().is_some_and(is_broken) {
+            self.clear();
+        }
+    }
+
+    /// The acceleration along what supports the ball.
+    pub(super) fn along(&self, acceleration: Vector2<f64>) -> Vector2<f64> {
+        match self.0 {
+            [Some(contact), None] => acceleration - contact.normal * acceleration.dot(&contact.normal),
+            _ => acceleration,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contact(x: f64, y: f64) -> Contact {
+        let normal = Vector2::new(x, y).normalize();
+        Contact { feature: Feature::Point(-normal), normal }
+    }
+
+    #[test]
+    fn two_contacts_hold_what_presses_onto_both_and_else_the_one_that_is_pressed() {
+        let (left, right) = (contact(1.0, 1.0), contact(-1.0, 1.0));
+        let held = |x: f64, y: f64| {
+            let mut contacts = Contacts::default();
+            contacts.set_two([left, right]);
+            contacts.settle(Vector2::new(x, y));
+            contacts.iter().collect::<Vec<_>>()
+        };
+        assert_eq!(held(0.0, -1.0), [left, right]);
+        assert_eq!(held(0.9, -1.0), [left, right]);
+        // Exactly along a normal the other contact is touched without a force.
+        assert_eq!(held(1.0, -1.0), [left, right]);
+        assert_eq!(held(1.1, -1.0), [right]);
+        assert_eq!(held(-1.1, -1.0), [left]);
+    }
+
+    #[test]
+    fn between_opposite_contacts_only_the_pressed_one_is_active() {
+        let (floor, ceiling) = (contact(0.0, 1.0), contact(0.0, -1.0));
+        let mut contacts = Contacts::default();
+        contacts.set_two([floor, ceiling]);
+        contacts.settle(Vector2::new(1.0, 2.0));
+        assert_eq!(contacts.iter().collect::<Vec<_>>(), [ceiling]);
+    }
+}
