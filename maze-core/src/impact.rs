@@ -120,7 +120,8 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
         return (!leaves).then_some(time_s);
     }
     // Beside it: a circle that grazes the corner comes over the face when it is a little below its level.
-    let (outside, inward) = if along < plane.start { (plane.start - along, speed) } else { (along - plane.end, -speed) };
+    let (outside, inward) =
+        if along < plane.start { (plane.start - along, speed) } else { (along - plane.end, -speed) };
     let fall = -(path.velocity_at(time_s)[axis] * sign);
     // Deeper than a touch by then, as usual.
     if inward <= 0.0 || tolerance::touch(radius, path.position) * inward < fall * outside {
@@ -323,15 +324,13 @@ impl<'a> First<'a> {
 
     fn offer_corner(&mut self, point: Vector2<f64>, left: Option<Vector2<f64>>) {
         let is_known = |known: Impact| known.touched == Feature::Point(point);
-        if self.is_beside(point)
-            || self.is_out_of_time(point)
-            || self.impact.is_some_and(is_known)
-        {
+        if self.is_beside(point) || self.is_out_of_time(point) || self.impact.is_some_and(is_known) {
             return;
         }
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
-        if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, left == Some(point))
+        if let Some(time_s) =
+            touches_point(self.path, self.radius, point, self.horizon_s, left == Some(point))
         {
             self.keep(Impact { time_s, touched: Feature::Point(point) });
         }

@@ -10,7 +10,7 @@
     reason = "the truth that a test compares with may be computed in any way"
 )]
 
-use maze_core::impact::{self, Path, Feature};
+use maze_core::impact::{self, Feature, Path};
 use maze_core::{Facing, Plane, SortedPlanes, contact};
 use nalgebra::Vector2;
 use proptest::prelude::*;

@@ -1,7 +1,9 @@
 //! The cross-check finds nothing wrong with the engines, and finds every fault that is planted.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, OutOfRange, Plane, Tick, impact};
+use maze_core::{
+    Ball, BallSpec, Bounds, Continuous, Engine, Facing, Observer, OutOfRange, Plane, Tick, impact,
+};
 use maze_verify::results::{Partition, Results};
 use maze_verify::scene::{Scene, Stage, catalogue};
 use maze_verify::{Board, Build, Contender, RapierEngine, Walls, build, report, run};
@@ -106,7 +108,11 @@ struct FacesOnly {
 }
 
 impl Engine for FacesOnly {
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        _observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
         let mut left_s = self.tick_s;
         loop {
             let path =

@@ -98,7 +98,8 @@ fn settled(velocity: Vector2<f64>, surfaces: &[Option<&Surface>; 2], rests_on: [
         hit.normal.dot(&other.normal) < 0.0 && hit.normal.perp(&other.normal).abs() < PASSING
     };
     // In a gap without play a motion across it has nowhere to go.
-    let velocity = match velocity.dot(&hit.normal).abs() <= slowest && other.as_ref().is_some_and(is_opposite) {
+    let velocity = match velocity.dot(&hit.normal).abs() <= slowest && other.as_ref().is_some_and(is_opposite)
+    {
         true => with_normal_speed(velocity, hit.normal, 0.0),
         false => velocity,
     };

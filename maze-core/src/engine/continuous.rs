@@ -122,7 +122,13 @@ impl Continuous {
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
         let lower = falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
         let (time_s, end) = match (upper, lower) {
-            (Some(upper), Some(lower)) => if lower.0 < upper.0 { lower } else { upper },
+            (Some(upper), Some(lower)) => {
+                if lower.0 < upper.0 {
+                    lower
+                } else {
+                    upper
+                }
+            }
             (upper, lower) => upper.or(lower)?,
         };
         Some((time_s, face.facing.point(face.offset, end)))
@@ -211,17 +217,17 @@ impl Continuous {
         let support = self.contacts.single();
         // A feature that was hit at the same place a moment ago still is touched.
         let snap = tolerance::snap(radius, position);
-        let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, normal)| normal);
+        let again =
+            recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, normal)| normal);
         let other = support.map(|support| support.normal).or(again);
         let surface = |normal: Vector2<f64>, other: Option<Vector2<f64>>, is_active: bool| Surface {
             normal,
-            rest_speed: tolerance::rest_speed(radius, Self::pressing(acceleration, normal, other)),
+            rest_speed: tolerance::rest_speed(radius, position, Self::pressing(acceleration, normal, other)),
             is_active,
         };
         let hit = surface(normal, other, false);
         let other = other.map(|other| surface(other, Some(normal), support.is_some()));
-        let outcome =
-            collision::collide(before.velocity, &hit, other.as_ref(), self.spec.restitution);
+        let outcome = collision::collide(before.velocity, &hit, other.as_ref(), self.spec.restitution);
         self.ball = Ball { position, velocity: outcome.velocity };
         let contact = Contact { feature, normal };
         match (outcome.rests_on, support) {
@@ -322,7 +328,8 @@ impl Continuous {
     /// Stays between two contacts.
     fn rest<O: Observer + ?Sized>(&mut self, left_s: f64, log: &mut Log<O>) -> f64 {
         self.ball.velocity = Vector2::zeros();
-        let path = Path { position: self.ball.position, velocity: Vector2::zeros(), acceleration: Vector2::zeros() };
+        let path =
+            Path { position: self.ball.position, velocity: Vector2::zeros(), acceleration: Vector2::zeros() };
         log.observer.flight(&path, left_s);
         left_s
     }
@@ -366,8 +373,9 @@ impl Continuous {
     fn guard<O: Observer + ?Sized>(&mut self, from: Vector2<f64>, log: &mut Log<O>) {
         let (centre, radius) = (self.ball.position, self.radius());
         // A face has no back: whoever comes from behind it passes.
-        let is_in_front =
-            |centre: Vector2<f64>, plane: &Plane| 0.0 <= (centre[plane.facing.axis()] - plane.offset) * plane.facing.sign();
+        let is_in_front = |centre: Vector2<f64>, plane: &Plane| {
+            0.0 <= (centre[plane.facing.axis()] - plane.offset) * plane.facing.sign()
+        };
         let within = radius - tolerance::overlap(radius, centre);
         let is_inside = |plane: Plane| is_in_front(centre, &plane) || is_in_front(from, &plane);
         let is_overlapped = self.planes.planes_within(centre, within).any(is_inside);

@@ -84,7 +84,8 @@ impl Pivot<'_> {
         for candidate in self.touches(normal, &arc) {
             // In one direction a face comes before a point, and both before lift-off and turn.
             let is_tie = candidate.along == sine
-                && (!matches!(end, End::Touch(_)) || matches!((end, candidate.feature), (End::Touch(Feature::Point(_)), Feature::Face(_))));
+                && (!matches!(end, End::Touch(_))
+                    || matches!((end, candidate.feature), (End::Touch(Feature::Point(_)), Feature::Face(_))));
             if candidate.along < sine || is_tie {
                 (sine, end) = (candidate.along, End::Touch(candidate.feature));
                 turned = Some(candidate.normal);
@@ -106,7 +107,9 @@ impl Pivot<'_> {
         near.flat_map(move |face| {
             let plane = face.plane;
             let point = |is_corner: bool, along: f64| {
-                is_corner.then(|| self.touch_point(from, arc, plane.facing.point(plane.offset, along))).flatten()
+                is_corner
+                    .then(|| self.touch_point(from, arc, plane.facing.point(plane.offset, along)))
+                    .flatten()
             };
             let [starts, ends] = face.is_corner;
             let touches =
@@ -173,7 +176,8 @@ impl Pivot<'_> {
         }
         let half = distance / (2.0 * self.radius);
         let direction = between / distance;
-        let normal = direction * half - tangent(direction) * (arc.side * ((1.0 - half) * (1.0 + half)).sqrt());
+        let normal =
+            direction * half - tangent(direction) * (arc.side * ((1.0 - half) * (1.0 + half)).sqrt());
         Some(Touch { along: arc.ahead(normal)?, normal, feature })
     }
 }

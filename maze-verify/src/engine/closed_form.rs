@@ -3,7 +3,7 @@
 //! Written without a line of maze-core's physics: a flaw there cannot hide here.
 
 use super::without_resistance;
-use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
+use maze_core::{Ball, BallSpec, Engine, Observer, OutOfRange, Tick};
 use nalgebra::Vector2;
 
 /// A motion that has a closed form.
@@ -156,7 +156,11 @@ fn past_corner(from: Ball, point: Vector2<f64>, spec: &BallSpec, time_s: f64) ->
 }
 
 impl Engine for ClosedForm {
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        _observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
         let acceleration = acceleration * self.spec.rolling;
         if !acceleration.iter().all(|value| value.is_finite()) {
             return Err(OutOfRange::not_finite("the acceleration"));

@@ -1,6 +1,6 @@
 //! The published engine at tick lengths other than its own.
 
-use maze_core::{Ball, BallSpec, Engine, OutOfRange, Published, SortedPlanes, Tick};
+use maze_core::{Ball, BallSpec, Engine, Observer, OutOfRange, Published, SortedPlanes, Tick};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -38,7 +38,12 @@ impl PacedPublished {
 }
 
 impl Engine for PacedPublished {
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+    /// Shows an observer nothing: the engine within counts in other units.
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        _observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
         let pace = self.pace();
         let tick = self.inner.tick(acceleration * (pace * pace))?;
         Ok(Tick {

@@ -2,7 +2,7 @@
 
 use super::without_resistance;
 use crate::board::Board;
-use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
+use maze_core::{Ball, BallSpec, Engine, Observer, OutOfRange, Tick};
 use nalgebra::Vector2;
 use rapier3d::prelude::*;
 
@@ -114,7 +114,11 @@ impl RapierEngine {
 
 impl Engine for RapierEngine {
     /// `n_hits` is 1 when a velocity component changed its sign against the acceleration, as only a bounce makes it.
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        _observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
         if !acceleration.iter().all(|value| value.is_finite()) {
             return Err(OutOfRange::not_finite("the acceleration"));
         }

@@ -5,7 +5,7 @@ use super::rapier::{Walls, colliders, in_plane, to_f32, world};
 use super::without_resistance;
 use crate::board::Board;
 use maze_core::gravity::WORLD_GRAVITY;
-use maze_core::{Ball, BallSpec, Engine, OutOfRange, Tick};
+use maze_core::{Ball, BallSpec, Engine, Observer, OutOfRange, Tick};
 use nalgebra::Vector2;
 use rapier3d::prelude::*;
 
@@ -106,7 +106,11 @@ fn tilt_for(acceleration: Vector2<f64>) -> Rotation {
 
 impl Engine for RollingEngine {
     /// Counts no hits: a ball on a floor is always in contact.
-    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        _observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
         if !acceleration.iter().all(|value| value.is_finite()) {
             return Err(OutOfRange::not_finite("the acceleration"));
         }
