@@ -112,7 +112,12 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
     let gap = (path.position[axis] - plane.offset) * sign - radius;
     // A ball set down exactly at its radius may read as a rounding inside.
     let gap = if gap < 0.0 && -tolerance::touch(radius, path.position) < gap { 0.0 } else { gap };
-    let time_s = falls_through_zero(gap, path.velocity[axis] * sign, path.acceleration[axis] * sign)?;
+    let (rise, pull) = (path.velocity[axis] * sign, path.acceleration[axis] * sign);
+    let time_s = match falls_through_zero(gap, rise, pull) {
+        Some(time_s) => time_s,
+        None if gap < 0.0 && 0.0 < rise && pull < 0.0 => skims(path, radius, gap, rise, pull)?,
+        None => return None,
+    };
     let (along, speed) = (path.at(time_s)[1 - axis], path.velocity_at(time_s)[1 - axis]);
     if plane.start <= along && along <= plane.end {
         // Over the very end and on the way out the circle is the corner's, which knows whether it is pressed.
@@ -128,6 +133,14 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
         return None;
     }
     enters(path, radius, plane, time_s)
+}
+
+/// When a circle that rises from behind a face is at its highest, if it gets there as near as a touch: it has come over the
+/// corner that it grazes.
+#[cold]
+fn skims(path: &Path, radius: f64, gap: f64, rise: f64, pull: f64) -> Option<f64> {
+    let highest = gap - rise * rise / (2.0 * pull);
+    (-tolerance::touch(radius, path.position) < highest).then_some(-rise / pull)
 }
 
 /// When a circle that has fallen to the level of a face beside it comes over the face, still touching.
@@ -329,9 +342,10 @@ impl<'a> First<'a> {
         }
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
-        if let Some(time_s) =
-            touches_point(self.path, self.radius, point, self.horizon_s, left == Some(point))
-        {
+        // So has a circle that leaves a point left others at the same place.
+        let snap = tolerance::snap(self.radius, point);
+        let has_left = left.is_some_and(|left| (left - point).amax() <= snap);
+        if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, has_left) {
             self.keep(Impact { time_s, touched: Feature::Point(point) });
         }
     }

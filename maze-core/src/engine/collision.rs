@@ -34,11 +34,13 @@ fn with_normal_speed(velocity: Vector2<f64>, normal: Vector2<f64>, speed: f64) -
 /// turn until it leads away from both.
 ///
 /// In a narrow wedge the turns do not end (inelastic collapse): each takes a fraction of the speed, and the limit is rest.
-/// Between opposite surfaces only the motion along the normal ends so.
+/// Between opposite surfaces only the motion along the normal ends so. Where `is_held`, the acceleration holds a ball at rest
+/// between both surfaces, and one that leaves so slowly that it would rise above neither stays there.
 pub(super) fn collide(
     velocity: Vector2<f64>,
     hit: &Surface,
     other: Option<&Surface>,
+    is_held: bool,
     restitution: f64,
 ) -> Outcome {
     let surfaces = [Some(hit), other];
@@ -73,7 +75,14 @@ pub(super) fn collide(
         was_plastic = is_plastic;
         n_reflections += 1;
     }
-    settled(velocity, &surfaces, rests_on)
+    let outcome = settled(velocity, &surfaces, rests_on);
+    let stays = |surface: &Option<&Surface>| {
+        surface.is_some_and(|surface| outcome.velocity.norm() < surface.rest_speed)
+    };
+    if is_held && surfaces.iter().all(stays) {
+        return Outcome { velocity: Vector2::zeros(), rests_on: [true; 2] };
+    }
+    outcome
 }
 
 /// What the reflections tend to: rest, and between opposite surfaces the motion along them.
@@ -128,14 +137,14 @@ mod tests {
 
     #[test]
     fn a_face_scales_the_normal_speed_and_keeps_the_other() {
-        let outcome = collide(Vector2::new(3.0, -2.0), &surface(0.0, 1.0), None, 0.8);
+        let outcome = collide(Vector2::new(3.0, -2.0), &surface(0.0, 1.0), None, false, 0.8);
         assert_eq!(outcome, Outcome { velocity: Vector2::new(3.0, 1.6), rests_on: [false; 2] });
     }
 
     #[test]
     fn a_wall_that_is_hit_by_a_ball_on_the_floor_leaves_it_on_the_floor() {
         let floor = Surface { is_active: true, ..surface(0.0, 1.0) };
-        let outcome = collide(Vector2::new(2.0, 0.0), &surface(-1.0, 0.0), Some(&floor), 0.5);
+        let outcome = collide(Vector2::new(2.0, 0.0), &surface(-1.0, 0.0), Some(&floor), false, 0.5);
         assert_eq!(outcome, Outcome { velocity: Vector2::new(-1.0, 0.0), rests_on: [false, true] });
     }
 
@@ -146,7 +155,7 @@ mod tests {
             let floor = Surface { is_active: true, ..surface(0.0, 1.0) };
             let roof = surface(-rise, -run);
             let before = Vector2::new(1.0, 0.0);
-            let after = collide(before, &roof, Some(&floor), 1.0).velocity;
+            let after = collide(before, &roof, Some(&floor), false, 1.0).velocity;
             assert!((after.norm() - 1.0).abs() < 1.0e-12, "{angle}: {after}");
             assert!(-1.0e-9 < after.dot(&roof.normal) && -1.0e-9 < after.y, "{angle}: {after}");
         }
@@ -156,7 +165,7 @@ mod tests {
     fn with_loss_a_narrow_wedge_stops_the_ball_and_a_wide_one_throws_it_back() {
         let floor = Surface { is_active: true, ..surface(0.0, 1.0) };
         for (rise, stops) in [(1.0, false), (0.3, false), (0.05, true), (1.0e-3, true), (1.0e-5, true)] {
-            let after = collide(Vector2::new(1.0, 0.0), &surface(-rise, -1.0), Some(&floor), 0.8).velocity;
+            let after = collide(Vector2::new(1.0, 0.0), &surface(-rise, -1.0), Some(&floor), false, 0.8).velocity;
             assert_eq!(after.norm() < 1.0e-6, stops, "{rise}: {after}");
             assert!(after.norm() < 1.0);
         }
@@ -166,7 +175,7 @@ mod tests {
     fn a_slow_ball_comes_to_rest_between_two_surfaces() {
         let floor = Surface { is_active: true, rest_speed: 1.0e-4, ..surface(0.0, 1.0) };
         let roof = Surface { rest_speed: 1.0e-4, ..surface(-1.0, -1.0) };
-        let outcome = collide(Vector2::new(1.0e-5, 0.0), &roof, Some(&floor), 0.8);
+        let outcome = collide(Vector2::new(1.0e-5, 0.0), &roof, Some(&floor), false, 0.8);
         assert_eq!(outcome, Outcome { velocity: Vector2::zeros(), rests_on: [true; 2] });
     }
 
@@ -174,7 +183,7 @@ mod tests {
     fn between_opposite_surfaces_the_motion_along_them_goes_on() {
         let floor = Surface { is_active: false, ..surface(0.0, 1.0) };
         for restitution in [0.0, 0.8, 1.0] {
-            let after = collide(Vector2::new(2.0, 1.0), &surface(0.0, -1.0), Some(&floor), restitution);
+            let after = collide(Vector2::new(2.0, 1.0), &surface(0.0, -1.0), Some(&floor), false, restitution);
             assert_eq!(after.velocity.x, 2.0);
             assert!(after.velocity.y.abs() < 1.0e-9);
         }
@@ -190,7 +199,7 @@ mod tests {
                 for before in [Vector2::new(1.0, -1.0), Vector2::new(-2.0, 0.0), Vector2::new(0.3, -0.1)] {
                     if before.dot(&hit.normal) < 0.0 {
                         let floor = surface(0.0, 1.0);
-                        let after = collide(before, &hit, Some(&floor), restitution).velocity;
+                        let after = collide(before, &hit, Some(&floor), false, restitution).velocity;
                         assert!(after.norm() <= before.norm() * (1.0 + 1.0e-12));
                     }
                 }

@@ -4,7 +4,7 @@
 use super::clearing::Clearing;
 use super::collision::{self, Surface};
 use super::roll::{self, Pivot, tangent};
-use super::state::{BallState, Contact, Contacts};
+use super::state::{BallState, Contact, Contacts, presses};
 use super::{Arc as RolledArc, Engine, Hit, Log, Observer, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::contact;
@@ -37,8 +37,8 @@ const PATIENCE: u32 = 8;
 /// A place where the ball was at the last hit or lift-off.
 #[derive(Clone, Copy, Debug, Default)]
 struct Recent {
-    /// The last hit: where the ball was, and the normal.
-    hit: Option<(Vector2<f64>, Vector2<f64>)>,
+    /// The last hit: where the ball was, and what it touched.
+    hit: Option<(Vector2<f64>, Contact)>,
     /// The point that the ball has just lifted off from.
     left: Option<Vector2<f64>>,
 }
@@ -214,29 +214,40 @@ impl Continuous {
         let (before, radius) = (self.ball, self.radius());
         let Some(normal) = feature.normal_at(before.position) else { return };
         let position = feature.touching(before.position, normal, radius);
+        let contact = Contact { feature, normal };
         let support = self.contacts.single();
         // A feature that was hit at the same place a moment ago still is touched.
         let snap = tolerance::snap(radius, position);
-        let again =
-            recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, normal)| normal);
-        let other = support.map(|support| support.normal).or(again);
+        let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, again)| again);
+        let other = support.or(again);
         let surface = |normal: Vector2<f64>, other: Option<Vector2<f64>>, is_active: bool| Surface {
             normal,
-            rest_speed: tolerance::rest_speed(radius, position, Self::pressing(acceleration, normal, other)),
+            rest_speed: tolerance::rest_speed(
+                radius,
+                position,
+                Self::pressing(acceleration, normal, other),
+            ),
             is_active,
         };
-        let hit = surface(normal, other, false);
-        let other = other.map(|other| surface(other, Some(normal), support.is_some()));
-        let outcome = collision::collide(before.velocity, &hit, other.as_ref(), self.spec.restitution);
+        let on_hit = surface(normal, other.map(|other| other.normal), false);
+        let on_other = other.map(|other| surface(other.normal, Some(normal), support.is_some()));
+        let is_held =
+            other.is_some_and(|other| presses(acceleration, other.normal, normal) == [true, true]);
+        let outcome = collision::collide(
+            before.velocity,
+            &on_hit,
+            on_other.as_ref(),
+            is_held,
+            self.spec.restitution,
+        );
         self.ball = Ball { position, velocity: outcome.velocity };
-        let contact = Contact { feature, normal };
-        match (outcome.rests_on, support) {
-            ([true, true], Some(support)) => self.contacts.set_two([support, contact]),
+        match (outcome.rests_on, other) {
+            ([true, true], Some(other)) => self.contacts.set_two([other, contact]),
             ([true, _], _) => self.contacts.set(contact),
-            ([false, true], Some(support)) => self.contacts.set(support),
+            ([false, true], Some(other)) => self.contacts.set(other),
             _ => self.contacts.clear(),
         }
-        recent.hit = Some((position, normal));
+        recent.hit = Some((position, contact));
         log.tick.n_rests += u32::from(outcome.rests_on[0]);
         log.tick.n_corner_hits += u32::from(matches!(feature, Feature::Point(_)));
         let point = feature.closest_point(position);

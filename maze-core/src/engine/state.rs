@@ -61,28 +61,19 @@ impl Contacts {
     }
 
     /// Breaks contacts that the acceleration does not press the ball onto.
-    ///
-    /// With two contacts, a = -(α n₁ + β n₂): the ball rests where α and β are 0 or more. Else the contact with the negative
-    /// coefficient breaks, and along the other one the ball moves away from it.
     pub(super) fn settle(&mut self, acceleration: Vector2<f64>) {
-        let is_pressed = |contact: &Contact| acceleration.dot(&contact.normal) < 0.0;
         if let [Some(one), Some(two)] = self.0 {
-            let cross = one.normal.perp(&two.normal);
-            let rounding = tolerance::CONE * acceleration.norm();
-            let side = if cross < 0.0 { -1.0 } else { 1.0 };
-            let alpha = side * two.normal.perp(&acceleration);
-            let beta = side * acceleration.perp(&one.normal);
-            let (presses_one, presses_two) = (-rounding <= alpha, -rounding <= beta);
-            let is_opposite = cross.abs() < tolerance::PASSING;
-            if presses_one && presses_two && !is_opposite {
-                return;
+            match presses(acceleration, one.normal, two.normal) {
+                [true, true] => return,
+                [true, false] => self.set(one),
+                [false, true] => self.set(two),
+                [false, false] => self.clear(),
             }
-            let keeps_one = if is_opposite { is_pressed(&one) } else { presses_one };
-            self.set(if keeps_one { one } else { two });
         }
         // On the arc around a point the speed counts too.
-        let is_broken =
-            |contact: Contact| matches!(contact.feature, Feature::Face(_)) && !is_pressed(&contact);
+        let is_broken = |contact: Contact| {
+            matches!(contact.feature, Feature::Face(_)) && 0.0 <= acceleration.dot(&contact.normal)
+        };
         if self.single().is_some_and(is_broken) {
             self.clear();
         }
@@ -94,6 +85,28 @@ impl Contacts {
             [Some(contact), None] => acceleration - contact.normal * acceleration.dot(&contact.normal),
             _ => acceleration,
         }
+    }
+}
+
+/// Which of two touched features an acceleration presses a ball onto that is at rest.
+///
+/// With a = -(α n₁ + β n₂) it is held by both where α and β are 0 or more. Else the contact with the negative coefficient
+/// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Between opposite
+/// features, where α and β are not determined, each counts alone.
+pub(super) fn presses(acceleration: Vector2<f64>, one: Vector2<f64>, two: Vector2<f64>) -> [bool; 2] {
+    let alone = [one, two].map(|normal| acceleration.dot(&normal) < 0.0);
+    let cross = one.perp(&two);
+    if cross.abs() < tolerance::PASSING {
+        return alone;
+    }
+    let rounding = tolerance::CONE * acceleration.norm();
+    let side = if cross < 0.0 { -1.0 } else { 1.0 };
+    let (alpha, beta) = (side * two.perp(&acceleration), side * acceleration.perp(&one));
+    match (-rounding <= alpha, -rounding <= beta) {
+        (true, true) => [true, true],
+        (true, false) => [alone[0], false],
+        (false, true) => [false, alone[1]],
+        (false, false) => [false, false],
     }
 }
 
