@@ -343,8 +343,8 @@ impl<'a> First<'a> {
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
         // So has a circle that leaves a point left others at the same place.
-        let snap = tolerance::snap(self.radius, point);
-        let has_left = left.is_some_and(|left| (left - point).amax() <= snap);
+        let has_left =
+            left.is_some_and(|left| (left - point).amax() <= tolerance::snap(self.radius, point));
         if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, has_left) {
             self.keep(Impact { time_s, touched: Feature::Point(point) });
         }

@@ -72,12 +72,12 @@ pub(crate) fn bracketed_root(mut low: f64, mut high: f64, function: impl Fn(f64)
             high = x;
         }
         let newton = x - value / slope;
-        let next = if low < newton && newton < high { newton } else { low + (high - low) / 2.0 };
-        if next == x || next <= low || high <= next {
-            return next;
+        // A step below rounding is the end: the bracket, one end of which is x, would only halve itself around it.
+        if (newton - x).abs() <= f64::EPSILON * x.abs() {
+            return x;
         }
-        // Newton converges from one side: a step below rounding is the end.
-        if (next - x).abs() <= f64::EPSILON * x.abs() {
+        let next = if low < newton && newton < high { newton } else { low + (high - low) / 2.0 };
+        if next <= low || high <= next {
             return next;
         }
         x = next;

@@ -43,6 +43,12 @@ pub(super) fn collide(
     is_held: bool,
     restitution: f64,
 ) -> Outcome {
+    if other.is_none() {
+        let rebound = restitution * -velocity.dot(&hit.normal);
+        let rests = rebound < hit.rest_speed;
+        let velocity = with_normal_speed(velocity, hit.normal, if rests { 0.0 } else { rebound });
+        return Outcome { velocity, rests_on: [rests, false] };
+    }
     let surfaces = [Some(hit), other];
     let mut rests_on = [false, other.is_some_and(|other| other.is_active)];
     let mut velocity = velocity;

@@ -116,7 +116,7 @@ impl Continuous {
 
     /// When and off which end the ball slides off the face that supports it.
     fn slides_off(&self, path: &Path) -> Option<(f64, Vector2<f64>)> {
-        let Some(Contact { feature: Feature::Face(face), .. }) = self.contacts.single() else { return None };
+        let Some(&Contact { feature: Feature::Face(face), .. }) = self.contacts.single() else { return None };
         let axis = 1 - face.facing.axis();
         let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
@@ -138,7 +138,7 @@ impl Continuous {
     fn advance<O: Observer + ?Sized>(&mut self, path: &Path, time_s: f64, log: &mut Log<O>) {
         log.observer.flight(path, time_s);
         self.ball = Ball { position: path.at(time_s), velocity: path.velocity_at(time_s) };
-        if let Some(Contact { feature, normal }) = self.contacts.single() {
+        if let Some(&Contact { feature, normal }) = self.contacts.single() {
             self.ball.position = feature.touching(self.ball.position, normal, self.radius());
             self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
         }
@@ -160,7 +160,7 @@ impl Continuous {
         {
             self.advance(&path, time_s, log);
             // Over the very end the ball stands on the point there: it lifts off at once if it is fast, or rolls around it.
-            if let Some(Contact { feature: Feature::Face(face), normal }) = self.contacts.single() {
+            if let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.single() {
                 let axis = 1 - face.facing.axis();
                 self.ball.position[axis] = point[axis];
                 self.contacts.set(Contact { feature: Feature::Point(point), normal });
@@ -180,16 +180,17 @@ impl Continuous {
             self.n_ticks_to_wait -= 1;
             return;
         }
+        let is_slow = self.ball.velocity.amax() * self.tick_s < WORTHWHILE * self.radius();
+        if !(self.is_cached && is_slow && self.spec.resistance == 0.0) {
+            return;
+        }
         let mut carriers = [None; 2];
         for contact in self.contacts.iter() {
             let Feature::Face(face) = contact.feature else { return };
             carriers[face.facing.axis()] = Some(face);
         }
-        let is_slow = self.ball.velocity.amax() * self.tick_s < WORTHWHILE * self.radius();
-        if self.is_cached && self.spec.resistance == 0.0 && is_slow {
-            self.clearing = Clearing::around(&self.planes, self.ball, self.radius(), &carriers);
-            self.n_ticks_to_wait = if self.clearing.is_some() { 0 } else { PATIENCE };
-        }
+        self.clearing = Clearing::around(&self.planes, self.ball, self.radius(), &carriers);
+        self.n_ticks_to_wait = if self.clearing.is_some() { 0 } else { PATIENCE };
     }
 
     /// How strongly the acceleration presses the ball onto a feature (units/s²), where another one may support it.
@@ -215,7 +216,7 @@ impl Continuous {
         let Some(normal) = feature.normal_at(before.position) else { return };
         let position = feature.touching(before.position, normal, radius);
         let contact = Contact { feature, normal };
-        let support = self.contacts.single();
+        let support = self.contacts.single().copied();
         // A feature that was hit at the same place a moment ago still is touched.
         let snap = tolerance::snap(radius, position);
         let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, again)| again);
@@ -323,7 +324,7 @@ impl Continuous {
             self.contacts.settle(acceleration);
             left_s -= match self.contacts.single() {
                 _ if self.contacts.are_two() => self.rest(left_s, log),
-                Some(Contact { feature: Feature::Point(point), normal }) => {
+                Some(&Contact { feature: Feature::Point(point), normal }) => {
                     self.roll(point, normal, acceleration, left_s, &mut recent, log)
                 }
                 _ => self.fly(acceleration, left_s, &mut recent, log),
@@ -388,15 +389,15 @@ impl Continuous {
             0.0 <= (centre[plane.facing.axis()] - plane.offset) * plane.facing.sign()
         };
         let within = radius - tolerance::overlap(radius, centre);
-        let is_inside = |plane: Plane| is_in_front(centre, &plane) || is_in_front(from, &plane);
-        let is_overlapped = self.planes.planes_within(centre, within).any(is_inside);
-        if is_overlapped {
+        let is_inside = |plane: &Plane| is_in_front(centre, plane) || is_in_front(from, plane);
+        if self.planes.any_within(centre, within, is_inside) {
             log.tick.corrected_overlap = self.depenetrate();
             self.contacts.clear();
         }
     }
 
     /// A tick that is searched.
+    #[inline(never)]
     fn search<O: Observer + ?Sized>(
         &mut self,
         acceleration: Vector2<f64>,
@@ -418,20 +419,23 @@ impl Continuous {
         }
         let from = self.ball.position;
         let n_events = self.pass(acceleration, &mut log);
-        if 1 < n_events || !self.contacts.is_empty() {
+        self.look_around();
+        // Where a clearing was found, every plane near was looked at.
+        if self.clearing.is_none() && (1 < n_events || !self.contacts.is_empty()) {
             self.guard(from, &mut log);
         }
-        self.look_around();
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(log.tick)
     }
 }
 
-impl Engine for Continuous {
-    fn tick_observed(
+impl Continuous {
+    /// A tick, for observers of any kind: what is not observed costs nothing.
+    #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
+    fn advance_tick<O: Observer + ?Sized>(
         &mut self,
         acceleration: Vector2<f64>,
-        observer: &mut dyn Observer,
+        observer: &mut O,
     ) -> Result<Tick, OutOfRange> {
         let acceleration = acceleration * self.spec.rolling;
         if let Some(clearing) = &self.clearing
@@ -442,6 +446,20 @@ impl Engine for Continuous {
             return Ok(Tick { n_steps: 1, ..Tick::default() });
         }
         self.search(acceleration, observer)
+    }
+}
+
+impl Engine for Continuous {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
+        self.advance_tick(acceleration, observer)
+    }
+
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        self.advance_tick(acceleration, &mut ())
     }
 
     fn ball(&self) -> Ball {

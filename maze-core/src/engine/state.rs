@@ -44,8 +44,8 @@ impl Contacts {
     }
 
     /// The one contact of a ball that moves along something.
-    pub(super) fn single(&self) -> Option<Contact> {
-        self.0[0]
+    pub(super) fn single(&self) -> Option<&Contact> {
+        self.0[0].as_ref()
     }
 
     pub(super) fn clear(&mut self) {
@@ -71,7 +71,7 @@ impl Contacts {
             }
         }
         // On the arc around a point the speed counts too.
-        let is_broken = |contact: Contact| {
+        let is_broken = |contact: &Contact| {
             matches!(contact.feature, Feature::Face(_)) && 0.0 <= acceleration.dot(&contact.normal)
         };
         if self.single().is_some_and(is_broken) {

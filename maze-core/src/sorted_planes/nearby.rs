@@ -50,6 +50,30 @@ impl SortedPlanes {
         self.faces_around(centre, reach).map(|face| face.plane)
     }
 
+    /// Whether one of them is of some kind.
+    pub(crate) fn any_within(
+        &self,
+        centre: Vector2<f64>,
+        reach: f64,
+        is_meant: impl Fn(&Plane) -> bool,
+    ) -> bool {
+        let wide = reach * WIDENED;
+        let ranks = [0, 1].map(|axis| self.ranks(axis, [centre[axis] - wide, centre[axis] + wide]));
+        for facing in Facing::ALL {
+            let (across, along) = (facing.axis(), 1 - facing.axis());
+            for row in self.rows(facing, self.rows_at(facing, &ranks[across])) {
+                for face in row.at(ranks[along].clone()) {
+                    let Face { plane, .. } = face;
+                    let is_near = is_within(plane.offset - centre[across], plane.gap(centre[along]), reach);
+                    if is_near && is_meant(&plane) {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
     /// The same planes, with what is known about their ends.
     pub(crate) fn faces_around(&self, centre: Vector2<f64>, reach: f64) -> impl Iterator<Item = Face> {
         let wide = reach * WIDENED;
