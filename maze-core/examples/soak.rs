@@ -1,39 +1,80 @@
 //! The exact engine for as long as one likes: `cargo run --release -p maze-core --example soak -- --ticks 1000000000`.
 //!
-//! Random mazes, radii up to 0.499 of a corridor, accelerations to 1000, speeds to 10⁴. Prints how often a ball was in a
-//! wall, on another side of one, not finite, or richer in energy than before; exit status 1 when that was ever so.
+//! Half of the ticks are played in random mazes (radii up to 0.499 of a corridor, accelerations to 1000, speeds to 10⁴), half in
+//! irregular scenes, in which every wall has coordinates of its own (`tests/irregular`). The judges know nothing of the engine:
+//! they look at every face. Prints how often a ball was in a wall, went through one, was not finite, or richer in energy than
+//! before, and how often the engine's own last check had to correct it; exit status 1 when any of that was ever so.
 
 #![allow(clippy::disallowed_methods, reason = "the judge may compute in any way")]
 
+#[path = "../tests/irregular/mod.rs"]
+mod irregular;
 #[path = "../tests/noise/mod.rs"]
 mod noise;
 
+use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Radius};
-use maze_core::{SortedPlanes, extrude, layout};
+use irregular::{Scene, depth};
+use maze_core::engine::Arc as Rolled;
+use maze_core::impact::Path;
+use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Observer, Plane};
+use maze_core::{Radius, SortedPlanes, Tick, extrude, layout};
 use nalgebra::Vector2;
 use noise::Noise;
 use std::process::ExitCode;
+use std::sync::Arc;
+
+/// Looks for a ball in a wall, beyond one, or richer in energy than before.
+#[derive(Parser)]
+struct Arguments {
+    /// Ticks in all.
+    #[arg(long, default_value_t = 10_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    ticks: u64,
+    /// Seed of the first scene; the others follow.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// Irregular scenes alone.
+    #[arg(long, conflicts_with = "mazes")]
+    irregular: bool,
+    /// Mazes alone.
+    #[arg(long)]
+    mazes: bool,
+}
 
 const TICK_S: f64 = 0.03;
 
-/// Deeper than this (units) is a penetration; richer by more than this part is an energy gain. Both far above rounding.
-const BAR: f64 = 1.0e-9;
+/// Deeper than this (radii) is a penetration; richer by more than this fraction is an energy gain. Both far above rounding.
+const LIMIT: f64 = 1.0e-9;
+
+/// What rounding may add to a depth: four times the spacing of floats at the ball's coordinates, which counts far from the
+/// origin (at 10⁵ units 6e-11 units).
+fn rounding(position: Vector2<f64>) -> f64 {
+    4.0 * f64::EPSILON * position.amax()
+}
 
 const TICKS_PER_MAZE: u64 = 50_000;
+const TICKS_PER_SCENE: u64 = 1000;
+
+/// From this restitution on a ball may bounce more often in a tick than the engine follows, which then drops time.
+const ELASTIC: f64 = 0.99;
 
 #[derive(Default)]
 struct Totals {
+    n_scenes: u64,
     n_ticks: u64,
     n_hits: u64,
     n_corner_hits: u64,
     n_rests: u64,
+    n_rolls: u64,
     n_penetrations: u64,
     n_tunnels: u64,
     n_not_finite: u64,
     n_energy_gains: u64,
+    n_corrected: u64,
     n_recovered: u64,
     n_dropped: u64,
+    /// Of those, with a ball that loses enough at each bounce.
+    n_dropped_inelastic: u64,
     deepest: f64,
     dropped_s: f64,
     first_fault: Option<String>,
@@ -41,31 +82,98 @@ struct Totals {
 
 impl Totals {
     fn n_faults(&self) -> u64 {
-        self.n_penetrations + self.n_tunnels + self.n_not_finite + self.n_energy_gains
+        self.n_penetrations
+            + self.n_tunnels
+            + self.n_not_finite
+            + self.n_energy_gains
+            + self.n_corrected
+            + self.n_dropped_inelastic
+    }
+
+    /// Judges one tick; `context` tells what it was if it is the first that fails.
+    fn judge(&mut self, case: &Case, tick: &Tick, [before, after]: [Ball; 2], context: impl Fn() -> String) {
+        let n_faults = self.n_faults();
+        self.n_ticks += 1;
+        self.n_hits += u64::from(tick.n_hits);
+        self.n_corner_hits += u64::from(tick.n_corner_hits);
+        self.n_rests += u64::from(tick.n_rests);
+        self.n_recovered += u64::from(tick.recovered);
+        self.n_corrected += u64::from(0.0 < tick.corrected_overlap);
+        self.n_dropped += u64::from(0.0 < tick.dropped_s);
+        self.n_dropped_inelastic += u64::from(0.0 < tick.dropped_s && case.spec.restitution < ELASTIC);
+        self.dropped_s += tick.dropped_s;
+        let is_finite = after.position.iter().chain(&after.velocity).all(|value| value.is_finite());
+        self.n_not_finite += u64::from(!is_finite);
+        let radius = case.spec.radius.units();
+        let depth = (depth(case.planes, after.position, radius) - rounding(after.position)) / radius;
+        self.deepest = self.deepest.max(depth);
+        self.n_penetrations += u64::from(LIMIT < depth);
+        let pull = case.acceleration;
+        // Heights are counted from near by, so that they do not drown in the coordinates.
+        let energy =
+            |ball: Ball| ball.velocity.norm_squared() / 2.0 - pull.dot(&(ball.position - before.position));
+        let scale = before.velocity.norm_squared() + after.velocity.norm_squared() + pull.norm() * 20.0;
+        self.n_energy_gains += u64::from(LIMIT * scale < energy(after) - energy(before));
+        self.n_tunnels += u64::from(case.has_tunnelled);
+        if n_faults < self.n_faults() && self.first_fault.is_none() {
+            self.first_fault = Some(format!(
+                "{}, {:?}, acceleration {pull:?}: {before:?} -> {after:?}, {tick:?}",
+                context(),
+                case.spec
+            ));
+        }
     }
 }
 
-/// How deep a circle is in the walls around it, by a plain look at every plane.
-fn penetration(planes: &[Plane4], position: Vector2<f64>, radius: f64) -> f64 {
-    let depth = |plane: &Plane4| {
-        let along = position[1 - plane.axis].clamp(plane.start, plane.end) - position[1 - plane.axis];
-        let across = position[plane.axis] - plane.offset;
-        radius - (across * across + along * along).sqrt()
-    };
-    planes.iter().map(depth).fold(0.0, f64::max)
+/// What a tick is judged by.
+struct Case<'a> {
+    planes: &'a [Plane],
+    spec: BallSpec,
+    acceleration: Vector2<f64>,
+    has_tunnelled: bool,
 }
 
-/// A plane without its facing: for the judge both sides count.
-struct Plane4 {
-    axis: usize,
-    offset: f64,
-    start: f64,
-    end: f64,
+/// Follows the centre through a tick and notices when it crosses a face.
+struct Crossings<'a> {
+    planes: &'a [Plane],
+    radius: f64,
+    has_crossed: bool,
+    n_rolls: u64,
 }
 
-fn flat(planes: &SortedPlanes) -> Vec<Plane4> {
-    let all = Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing));
-    all.map(|p| Plane4 { axis: p.facing.axis(), offset: p.offset, start: p.start, end: p.end }).collect()
+impl Observer for Crossings<'_> {
+    fn flight(&mut self, path: &Path, duration_s: f64) {
+        let to = path.at(duration_s);
+        for plane in self.planes {
+            let axis = plane.facing.axis();
+            let [from, speed, pull] = [path.position, path.velocity, path.acceleration].map(|v| v[axis]);
+            // A path that stays on one side, as told by its ends and by its turning point.
+            let turn = if pull == 0.0 { from } else { from - speed * speed / (2.0 * pull) };
+            let lowest = from.min(to[axis]).min(turn);
+            let highest = from.max(to[axis]).max(turn);
+            if plane.offset < lowest || highest < plane.offset {
+                continue;
+            }
+            let (gap, half) = (from - plane.offset, pull / 2.0);
+            let root = (speed * speed - 4.0 * half * gap).max(0.0).sqrt();
+            // Both roots of gap + speed t + half t², by the form of each that does not cancel.
+            let sum = -(speed + root.copysign(speed)) / 2.0;
+            for time_s in [sum / half, gap / sum] {
+                if 0.0 < time_s && time_s < duration_s {
+                    let along = path.at(time_s)[1 - axis];
+                    self.has_crossed |= plane.start < along && along < plane.end;
+                }
+            }
+        }
+    }
+
+    fn roll(&mut self, arc: &Rolled, _duration_s: f64) {
+        self.n_rolls += 1;
+        let halfway = (arc.from + arc.to).try_normalize(0.0).unwrap_or(arc.to);
+        let centre = arc.point + halfway * arc.radius;
+        let depth = depth(self.planes, centre, self.radius);
+        self.has_crossed |= LIMIT * self.radius + rounding(centre) < depth;
+    }
 }
 
 /// Which cell of the layout a point lies in, told from the grid alone; `None` in a wall.
@@ -116,10 +224,11 @@ fn run_maze(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box<dyn 
     let mut noise = Noise(seed);
     let layout = layout::recursive_backtracker(8, 6, seed)?;
     let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default())?;
-    let planes = flat(&maze.planes);
+    let planes: Vec<Plane> = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).collect();
     let radius = Radius::new(0.2 + 0.299 * noise.next().abs()).ok_or("radius")?;
     let spec = BallSpec { radius, ..BallSpec::default() };
     let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), TICK_S)?;
+    totals.n_scenes += 1;
     for n in 0..n_ticks {
         if n % 1000 == 0 {
             let speed = 10.0_f64.powf(4.0 * noise.next().abs());
@@ -127,80 +236,81 @@ fn run_maze(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box<dyn 
         }
         let strength = if n % 7000 < 1000 { 1000.0 } else { 5.0 };
         let pull = noise.vector() * strength;
-        let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
         let before = engine.ball();
         let tick = engine.tick(pull)?;
         let after = engine.ball();
-        totals.n_ticks += 1;
-        totals.n_hits += u64::from(tick.n_hits);
-        totals.n_corner_hits += u64::from(tick.n_corner_hits);
-        totals.n_rests += u64::from(tick.n_rests);
-        totals.n_recovered += u64::from(tick.recovered);
-        totals.n_dropped += u64::from(0.0 < tick.dropped_s);
-        totals.dropped_s += tick.dropped_s;
-        totals.n_not_finite +=
-            u64::from(!after.position.iter().chain(&after.velocity).all(|v| v.is_finite()));
-        let depth = penetration(&planes, after.position, radius.units());
-        totals.deepest = totals.deepest.max(depth);
-        totals.n_penetrations += u64::from(BAR < depth);
-        let scale = before.velocity.norm_squared() + after.velocity.norm_squared() + pull.norm() * 20.0;
-        totals.n_energy_gains += u64::from(BAR * scale < energy(after) - energy(before));
         let [from, to] = [before, after].map(|state| cell_of(&layout, state.position - maze.bounds.low));
         let way = (before.velocity.norm() + pull.norm() * TICK_S) * TICK_S;
-        let tunnelled = match (from, to) {
+        let has_tunnelled = match (from, to) {
             (Some(from), Some(to)) => !is_joined(&layout, from, to, way),
             _ => true,
         };
-        totals.n_tunnels += u64::from(tunnelled);
-        if totals.first_fault.is_none() && 0 < totals.n_faults() {
-            let radius = radius.units();
-            totals.first_fault = Some(format!(
-                "seed {seed}, tick {n}, radius {radius}, pull {pull:?}: {before:?} -> {after:?}, {tick:?}"
-            ));
-        }
+        let case = Case { planes: &planes, spec, acceleration: pull, has_tunnelled };
+        totals.judge(&case, &tick, [before, after], || format!("maze {seed}, tick {n}"));
     }
     Ok(())
 }
 
-fn n_ticks_from_arguments() -> Option<u64> {
-    let mut arguments = std::env::args().skip(1);
-    match (arguments.next().as_deref(), arguments.next(), arguments.next()) {
-        (None, ..) => Some(10_000_000),
-        (Some("--ticks"), Some(n), None) => n.parse().ok().filter(|n| 0 < *n),
-        _ => None,
+fn run_irregular(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box<dyn std::error::Error>> {
+    let Some(scene) = Scene::new(seed) else { return Ok(()) };
+    let planes = Arc::new(SortedPlanes::new(scene.planes.iter().copied())?);
+    let mut engine = Continuous::new(planes, scene.spec, scene.ball, scene.tick_s)?;
+    let radius = scene.spec.radius.units();
+    totals.n_scenes += 1;
+    for (n, pull) in (0..n_ticks).zip(scene.pulls(seed)) {
+        let before = engine.ball();
+        let mut watch = Crossings { planes: &scene.planes, radius, has_crossed: false, n_rolls: 0 };
+        let tick = engine.tick_observed(pull, &mut watch)?;
+        totals.n_rolls += watch.n_rolls;
+        let acceleration = pull * scene.spec.rolling;
+        let is_outside = irregular::HALF < (engine.ball().position - scene.middle).amax();
+        let has_tunnelled = watch.has_crossed || is_outside;
+        let case = Case { planes: &scene.planes, spec: scene.spec, acceleration, has_tunnelled };
+        let context = || format!("irregular scene {seed}, tick {n} of {} s", scene.tick_s);
+        totals.judge(&case, &tick, [before, engine.ball()], context);
     }
+    Ok(())
 }
 
 fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
-    let Some(n_wanted) = n_ticks_from_arguments() else {
-        eprintln!("usage: soak [--ticks N]   with N greater than 0");
-        return Ok(ExitCode::from(2));
-    };
+    let arguments = Arguments::parse();
     let mut totals = Totals::default();
     // Shows itself on a terminal only.
-    let bar = ProgressBar::new(n_wanted).with_style(ProgressStyle::with_template(
+    let bar = ProgressBar::new(arguments.ticks).with_style(ProgressStyle::with_template(
         "{wide_bar} {human_pos} of {human_len} ticks, {per_sec}, {eta} left",
     )?);
-    for seed in 0.. {
-        let left = n_wanted - totals.n_ticks;
-        if left == 0 {
-            break;
+    let for_mazes = match () {
+        () if arguments.irregular => 0,
+        () if arguments.mazes => arguments.ticks,
+        () => arguments.ticks / 2,
+    };
+    for (most, n_per_scene, run) in [
+        (for_mazes, TICKS_PER_MAZE, run_maze as fn(u64, u64, &mut Totals) -> Result<(), _>),
+        (arguments.ticks, TICKS_PER_SCENE, run_irregular),
+    ] {
+        let mut seed = arguments.seed;
+        while totals.n_ticks < most {
+            run(seed, n_per_scene.min(most - totals.n_ticks), &mut totals)?;
+            seed = seed.wrapping_add(1);
+            bar.set_position(totals.n_ticks);
         }
-        run_maze(seed, left.min(TICKS_PER_MAZE), &mut totals)?;
-        bar.set_position(totals.n_ticks);
     }
     bar.finish_and_clear();
-    println!("ticks               {}", totals.n_ticks);
+    println!("ticks               {} in {} scenes", totals.n_ticks, totals.n_scenes);
     println!(
-        "hits                {} ({} of corners, {} ended in rest)",
-        totals.n_hits, totals.n_corner_hits, totals.n_rests
+        "hits                {} ({} of corners, {} ended in rest); {} rolls",
+        totals.n_hits, totals.n_corner_hits, totals.n_rests, totals.n_rolls
     );
-    println!("penetrations > {BAR:e} {} (deepest {:e})", totals.n_penetrations, totals.deepest);
+    println!("penetrations > {LIMIT:e} r {} (deepest {:e} r)", totals.n_penetrations, totals.deepest);
     println!("tunnels             {}", totals.n_tunnels);
     println!("not finite          {}", totals.n_not_finite);
-    println!("energy gains > {BAR:e} {}", totals.n_energy_gains);
+    println!("energy gains > {LIMIT:e} {}", totals.n_energy_gains);
+    println!("corrected at the end {}", totals.n_corrected);
     println!("recovered           {}", totals.n_recovered);
-    println!("dropped time        in {} ticks, {:.6} s in all", totals.n_dropped, totals.dropped_s);
+    println!(
+        "dropped time        in {} ticks, {:.6} s in all; {} of them with a restitution below {ELASTIC}",
+        totals.n_dropped, totals.dropped_s, totals.n_dropped_inelastic
+    );
     if let Some(fault) = &totals.first_fault {
         println!("first fault         {fault}");
     }

@@ -343,8 +343,7 @@ impl<'a> First<'a> {
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
         // So has a circle that leaves a point left others at the same place.
-        let has_left =
-            left.is_some_and(|left| (left - point).amax() <= tolerance::snap(self.radius, point));
+        let has_left = left.is_some_and(|left| (left - point).amax() <= tolerance::snap(self.radius, point));
         if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, has_left) {
             self.keep(Impact { time_s, touched: Feature::Point(point) });
         }
@@ -389,13 +388,26 @@ impl<'a> First<'a> {
     fn keep(&mut self, impact: Impact) {
         let is_better = match self.impact {
             None => impact.time_s <= self.horizon_s,
-            Some(known) => rank(&impact) < rank(&known),
+            Some(known) if impact.time_s == known.time_s => self.comes_first(&impact, &known),
+            Some(known) => impact.time_s < known.time_s,
         };
         if is_better {
             self.until_s = impact.time_s;
             self.ranges = [self.path.range_until(0, self.until_s), self.path.range_until(1, self.until_s)];
             self.impact = Some(impact);
         }
+    }
+
+    /// Which of two impacts at the same time counts: a face before a point, then the nearer one, then the one that is approached
+    /// faster. All of that is the same in a scene that is mirrored or turned; only then the coordinates decide.
+    #[cold]
+    fn comes_first(&self, one: &Impact, other: &Impact) -> bool {
+        let (centre, velocity) = (self.path.at(one.time_s), self.path.velocity_at(one.time_s));
+        let order = |feature: &Feature| {
+            let away = centre - feature.closest_point(centre);
+            (matches!(feature, Feature::Point(_)), away.norm_squared(), away.dot(&velocity), rank(feature))
+        };
+        order(&one.touched) < order(&other.touched)
     }
 
     /// Part of the other coordinate's range in which the circle is near a row's offset, widened by its reach.
@@ -426,11 +438,11 @@ impl<'a> First<'a> {
     }
 }
 
-/// A total order of impacts, so that the order of the search does not show.
-fn rank(impact: &Impact) -> (f64, u8, f64, f64) {
-    match impact.touched {
-        Feature::Face(plane) => (impact.time_s, plane.facing as u8, plane.offset, plane.start),
-        Feature::Point(point) => (impact.time_s, 4, point.x, point.y),
+/// A total order of features, so that the order of the search does not show.
+fn rank(feature: &Feature) -> (u8, f64, f64) {
+    match feature {
+        Feature::Face(plane) => (plane.facing as u8, plane.offset, plane.start),
+        Feature::Point(point) => (4, point.x, point.y),
     }
 }
 

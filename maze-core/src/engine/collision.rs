@@ -171,7 +171,8 @@ mod tests {
     fn with_loss_a_narrow_wedge_stops_the_ball_and_a_wide_one_throws_it_back() {
         let floor = Surface { is_active: true, ..surface(0.0, 1.0) };
         for (rise, stops) in [(1.0, false), (0.3, false), (0.05, true), (1.0e-3, true), (1.0e-5, true)] {
-            let after = collide(Vector2::new(1.0, 0.0), &surface(-rise, -1.0), Some(&floor), false, 0.8).velocity;
+            let after =
+                collide(Vector2::new(1.0, 0.0), &surface(-rise, -1.0), Some(&floor), false, 0.8).velocity;
             assert_eq!(after.norm() < 1.0e-6, stops, "{rise}: {after}");
             assert!(after.norm() < 1.0);
         }
@@ -189,7 +190,8 @@ mod tests {
     fn between_opposite_surfaces_the_motion_along_them_goes_on() {
         let floor = Surface { is_active: false, ..surface(0.0, 1.0) };
         for restitution in [0.0, 0.8, 1.0] {
-            let after = collide(Vector2::new(2.0, 1.0), &surface(0.0, -1.0), Some(&floor), false, restitution);
+            let after =
+                collide(Vector2::new(2.0, 1.0), &surface(0.0, -1.0), Some(&floor), false, restitution);
             assert_eq!(after.velocity.x, 2.0);
             assert!(after.velocity.y.abs() < 1.0e-9);
         }

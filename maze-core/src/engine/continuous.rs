@@ -223,24 +223,14 @@ impl Continuous {
         let other = support.or(again);
         let surface = |normal: Vector2<f64>, other: Option<Vector2<f64>>, is_active: bool| Surface {
             normal,
-            rest_speed: tolerance::rest_speed(
-                radius,
-                position,
-                Self::pressing(acceleration, normal, other),
-            ),
+            rest_speed: tolerance::rest_speed(radius, position, Self::pressing(acceleration, normal, other)),
             is_active,
         };
         let on_hit = surface(normal, other.map(|other| other.normal), false);
         let on_other = other.map(|other| surface(other.normal, Some(normal), support.is_some()));
-        let is_held =
-            other.is_some_and(|other| presses(acceleration, other.normal, normal) == [true, true]);
-        let outcome = collision::collide(
-            before.velocity,
-            &on_hit,
-            on_other.as_ref(),
-            is_held,
-            self.spec.restitution,
-        );
+        let is_held = other.is_some_and(|other| presses(acceleration, other.normal, normal) == [true, true]);
+        let outcome =
+            collision::collide(before.velocity, &on_hit, on_other.as_ref(), is_held, self.spec.restitution);
         self.ball = Ball { position, velocity: outcome.velocity };
         match (outcome.rests_on, other) {
             ([true, true], Some(other)) => self.contacts.set_two([other, contact]),

@@ -80,15 +80,15 @@ impl Pivot<'_> {
             return Roll { time_s: left_s, ..ended(End::Time) };
         };
         let (mut sine, mut end) = arc.last();
-        let mut turned = None;
+        let mut first: Option<Touch> = None;
         for candidate in self.touches(normal, &arc) {
-            // In one direction a face comes before a point, and both before lift-off and turn.
-            let is_tie = candidate.along == sine
-                && (!matches!(end, End::Touch(_))
-                    || matches!((end, candidate.feature), (End::Touch(Feature::Point(_)), Feature::Face(_))));
-            if candidate.along < sine || is_tie {
+            let comes_first = match &first {
+                None => candidate.along <= sine,
+                Some(known) => candidate.order() < known.order(),
+            };
+            if comes_first {
                 (sine, end) = (candidate.along, End::Touch(candidate.feature));
-                turned = Some(candidate.normal);
+                first = Some(candidate);
             }
         }
         let time_s = arc.time_to(sine);
@@ -96,7 +96,7 @@ impl Pivot<'_> {
             let (normal, speed) = arc.after(left_s, sine);
             return Roll { normal, speed, time_s: left_s, end: End::Time };
         }
-        let normal = turned.unwrap_or_else(|| arc.normal(sine));
+        let normal = first.map_or_else(|| arc.normal(sine), |touch| touch.normal);
         Roll { normal, speed: if end == End::Turn { 0.0 } else { arc.speed(sine) }, time_s, end }
     }
 
@@ -142,7 +142,7 @@ impl Pivot<'_> {
         if gap.abs() <= snap || (gap < 0.0 && -tolerance::touch(self.radius, centre) < gap) {
             let along = centre[1 - axis];
             if way.dot(&outward) < -TANGENT && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
-                return Some(Touch { along: arc.begin, normal: from, feature });
+                return Some(Touch { along: arc.begin, normal: from, feature, distance: level });
             }
         }
         // The point lies below the face's level: the ball came from behind it.
@@ -154,7 +154,7 @@ impl Pivot<'_> {
         let along = self.point[1 - axis] + self.radius * normal[1 - axis];
         let way = tangent(normal) * arc.side;
         (is_over(along, snap) && !leaves(along, way[1 - axis])).then_some(())?;
-        Some(Touch { along: arc.ahead(normal)?, normal, feature })
+        Some(Touch { along: arc.ahead(normal)?, normal, feature, distance: level })
     }
 
     /// Where the ball touches another point: two circles of the radius around the points meet there.
@@ -171,14 +171,14 @@ impl Pivot<'_> {
         if gap <= tolerance::snap(self.radius, centre) && -tolerance::touch(self.radius, centre) < gap {
             let way = tangent(from) * arc.side;
             if way.dot(&from_point) < -TANGENT * self.radius {
-                return Some(Touch { along: arc.begin, normal: from, feature });
+                return Some(Touch { along: arc.begin, normal: from, feature, distance });
             }
         }
         let half = distance / (2.0 * self.radius);
         let direction = between / distance;
         let normal =
             direction * half - tangent(direction) * (arc.side * ((1.0 - half) * (1.0 + half)).sqrt());
-        Some(Touch { along: arc.ahead(normal)?, normal, feature })
+        Some(Touch { along: arc.ahead(normal)?, normal, feature, distance })
     }
 }
 
@@ -188,6 +188,16 @@ struct Touch {
     along: f64,
     normal: Vector2<f64>,
     feature: Feature,
+    /// Of the feature from the point that the ball rolls around, towards the ball (units).
+    distance: f64,
+}
+
+impl Touch {
+    /// Of touches at one place a face comes before a point, then the farther feature before the nearer one. That is the same in
+    /// a scene that is mirrored or turned.
+    fn order(&self) -> (f64, bool, f64) {
+        (self.along, matches!(self.feature, Feature::Point(_)), -self.distance)
+    }
 }
 
 /// One stretch of the pendulum's motion, in one direction.

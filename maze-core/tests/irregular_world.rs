@@ -1,0 +1,160 @@
+//! The exact engine where every wall has coordinates of its own: what must never happen, and what must not matter.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use any function")]
+
+mod irregular;
+mod noise;
+
+use irregular::{Scene, depth};
+use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes, Tick};
+use nalgebra::Vector2;
+use std::sync::Arc;
+
+fn engine(scene: &Scene) -> Continuous {
+    let planes = Arc::new(SortedPlanes::new(scene.planes.iter().copied()).unwrap());
+    Continuous::new(planes, scene.spec, scene.ball, scene.tick_s).unwrap()
+}
+
+/// What the soak looks for at length: 300 scenes of 400 ticks each.
+#[test]
+fn a_ball_is_never_in_a_wall_and_gains_no_energy() {
+    let (mut n_hits, mut n_rests) = (0, 0);
+    for seed in 0..300 {
+        let Some(scene) = Scene::new(seed) else { continue };
+        let (mut engine, radius) = (engine(&scene), scene.spec.radius.units());
+        for (n, pull) in scene.pulls(seed).take(400).enumerate() {
+            let before = engine.ball();
+            let tick = engine.tick(pull).unwrap();
+            let after = engine.ball();
+            // Four times the spacing of floats there, and what is promised.
+            let limit = 1.0e-9 * radius + 4.0 * f64::EPSILON * after.position.amax();
+            let depth = depth(&scene.planes, after.position, radius);
+            assert!(
+                depth <= limit,
+                "scene {seed}, tick {n}: {depth} deep, {before:?} -> {after:?}, {tick:?}"
+            );
+            let acceleration = pull * scene.spec.rolling;
+            let gain = (after.velocity.norm_squared() - before.velocity.norm_squared()) / 2.0
+                - acceleration.dot(&(after.position - before.position));
+            let scale =
+                before.velocity.norm_squared() + after.velocity.norm_squared() + acceleration.norm() * 20.0;
+            assert!(gain <= 1.0e-9 * scale, "scene {seed}, tick {n}: gains {gain}, {before:?} -> {after:?}");
+            assert_eq!(tick.corrected_overlap, 0.0, "scene {seed}, tick {n}: {before:?} -> {after:?}");
+            assert!(
+                tick.dropped_s == 0.0 || 0.99 < scene.spec.restitution,
+                "scene {seed}, tick {n}: {tick:?}"
+            );
+            assert!(
+                (after.position - scene.middle).amax() < irregular::HALF,
+                "scene {seed}, tick {n}: outside"
+            );
+            n_hits += tick.n_hits;
+            n_rests += tick.n_rests;
+        }
+    }
+    assert!(100_000 < n_hits && 1000 < n_rests, "{n_hits} hits, {n_rests} rests: too few");
+}
+
+/// A way to look at a scene that must not change the motion.
+struct Image {
+    point: fn(Vector2<f64>) -> Vector2<f64>,
+    plane: fn(Plane) -> Plane,
+    scale: f64,
+}
+
+impl Image {
+    fn of(&self, scene: &Scene) -> Scene {
+        let Scene { spec, ball, .. } = *scene;
+        Scene {
+            planes: scene.planes.iter().map(|plane| (self.plane)(*plane)).collect(),
+            middle: (self.point)(scene.middle),
+            spec: BallSpec {
+                radius: Radius::new(spec.radius.units() * self.scale).unwrap(),
+                resistance: spec.resistance * self.scale,
+                ..spec
+            },
+            ball: self.of_ball(ball),
+            ..scene.clone()
+        }
+    }
+
+    fn of_ball(&self, ball: Ball) -> Ball {
+        Ball { position: (self.point)(ball.position), velocity: (self.point)(ball.velocity) }
+    }
+
+    /// Runs scenes and their images side by side: the image of the path is the path of the image, to the bit, and so are rests,
+    /// rolls and hits.
+    fn holds(&self, seeds: std::ops::Range<u64>) {
+        let mut n_rests = 0;
+        for seed in seeds {
+            let Some(scene) = Scene::new(seed) else { continue };
+            let (mut one, mut other) = (engine(&scene), engine(&self.of(&scene)));
+            for (n, pull) in scene.pulls(seed).take(300).enumerate() {
+                let state = one.state();
+                let tick = one.tick(pull).unwrap();
+                let of_image = other.tick((self.point)(pull)).unwrap();
+                let image = Tick {
+                    hardest_hit_speed: tick.hardest_hit_speed * self.scale,
+                    deepest_penetration: tick.deepest_penetration * self.scale,
+                    ..tick
+                };
+                assert_eq!(image, of_image, "scene {seed}, tick {n}: {state:?}, pull {pull:?}");
+                assert_eq!(
+                    self.of_ball(one.ball()),
+                    other.ball(),
+                    "scene {seed}, tick {n}: {state:?}, {pull:?}"
+                );
+                n_rests += tick.n_rests;
+            }
+        }
+        assert!(300 < n_rests, "{n_rests} rests: too few");
+    }
+}
+
+fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
+    Plane { facing, offset, start, end }
+}
+
+#[test]
+fn a_mirrored_scene_gives_the_mirrored_path() {
+    let image = Image {
+        point: |v| Vector2::new(-v.x, v.y),
+        plane: |p| match p.facing {
+            Facing::PlusX => plane(Facing::MinusX, -p.offset, p.start, p.end),
+            Facing::MinusX => plane(Facing::PlusX, -p.offset, p.start, p.end),
+            facing => plane(facing, p.offset, -p.end, -p.start),
+        },
+        scale: 1.0,
+    };
+    image.holds(1000..1200);
+}
+
+#[test]
+fn a_scene_turned_by_a_quarter_gives_the_turned_path() {
+    let image = Image {
+        point: |v| Vector2::new(-v.y, v.x),
+        plane: |p| match p.facing {
+            Facing::PlusX => plane(Facing::PlusY, p.offset, -p.end, -p.start),
+            Facing::MinusX => plane(Facing::MinusY, p.offset, -p.end, -p.start),
+            Facing::PlusY => plane(Facing::MinusX, -p.offset, p.start, p.end),
+            Facing::MinusY => plane(Facing::PlusX, -p.offset, p.start, p.end),
+        },
+        scale: 1.0,
+    };
+    image.holds(2000..2200);
+}
+
+#[test]
+fn a_scene_scaled_by_a_power_of_two_gives_the_scaled_path() {
+    let [small, large] = [1.0 / 1024.0, 8.0].map(|scale: f64| {
+        let (point, plane): (fn(Vector2<f64>) -> Vector2<f64>, fn(Plane) -> Plane) = match scale < 1.0 {
+            true => {
+                (|v| v / 1024.0, |p| plane(p.facing, p.offset / 1024.0, p.start / 1024.0, p.end / 1024.0))
+            }
+            false => (|v| v * 8.0, |p| plane(p.facing, p.offset * 8.0, p.start * 8.0, p.end * 8.0)),
+        };
+        Image { point, plane, scale }
+    });
+    small.holds(3000..3200);
+    large.holds(4000..4200);
+}
