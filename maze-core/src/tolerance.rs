@@ -11,9 +11,9 @@ use nalgebra::Vector2;
 
 /// Depth (radii) up to which a path that passes a point only grazes it. A graze has a double root, which rounding (1e-16 r,
 /// 1e-14 r a hundred radii away) would place anywhere within 1e-7 s or nowhere.
-const GRAZE: f64 = 1.5e-12;
+const GRAZE: f64 = 2.0e-13;
 
-/// Gap (radii) up to which a feature counts as touched by a ball that moves towards it: some `GRAZE`, so that what was
+/// Gap (radii) up to which a feature counts as touched by a ball that moves towards it: many a `GRAZE`, so that what was
 /// ignored as a graze is found as a contact.
 const SNAP: f64 = 8.0e-12;
 
@@ -33,9 +33,9 @@ const REST_APEX: f64 = 3.0e-9;
 pub(crate) const TANGENT: f64 = 1.0e-10;
 
 /// A point that is approached slower than this fraction of the speed is passed, unless the acceleration presses the ball onto
-/// it: the path leads no deeper than half its square, 5e-13 r, which is a graze. For the same reason two contact normals whose
+/// it: the path leads no deeper than half its square, 1.3e-13 r, which is a graze. For the same reason two contact normals whose
 /// cross product is less than this are opposite: a gap that is narrower than the ball by a graze is passed.
-pub(crate) const PASSING: f64 = 1.0e-6;
+pub(crate) const PASSING: f64 = 5.0e-7;
 
 /// A push out of a contact's cone by less than this fraction of the acceleration is rounding: the ball stays at rest.
 pub(crate) const CONE: f64 = 4.0e-15;
