@@ -1,6 +1,7 @@
 //! One wall face as an axis-aligned plane.
 
 use nalgebra::Vector2;
+use std::cmp::Ordering;
 
 /// The direction in which a face looks, out of its wall. The report colours them red, green, cyan and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -118,6 +119,17 @@ impl Plane {
             along - self.end
         } else {
             0.0
+        }
+    }
+
+    /// Which of two planes of one row, that do not overlap, is nearer to `along`; the lower one on a tie.
+    ///
+    /// Told without rounding where both lie on the same side of it, however near they are to each other.
+    pub(crate) fn compare_distance(&self, other: &Self, along: f64) -> Ordering {
+        match (self.end < along, other.end < along, along < self.start, along < other.start) {
+            (true, true, ..) => other.end.total_cmp(&self.end),
+            (_, _, true, true) => self.start.total_cmp(&other.start),
+            _ => self.gap(along).total_cmp(&other.gap(along)).then(self.start.total_cmp(&other.start)),
         }
     }
 

@@ -21,6 +21,20 @@ fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![(-40..40_i32).prop_map(|steps| f64::from(steps) * 0.125), -5.0..5.0_f64]
 }
 
+/// So many floats above a number.
+fn above(value: f64, n_ulps: u32) -> f64 {
+    (0..n_ulps).fold(value, |value, _| value.next_up())
+}
+
+/// Planes so short, and so near to each other, that their distances from a far point round to the same number.
+fn splinter() -> impl Strategy<Value = Plane> {
+    let place = (-8..8_i32).prop_map(|steps| f64::from(steps) * 0.125 + 0.1);
+    (facing(), place.clone(), place, 0..9_u32, 1..3_u32).prop_map(|(facing, offset, start, n_up, n_long)| {
+        let start = above(start, n_up);
+        Plane { facing, offset, start, end: above(start, n_long) }
+    })
+}
+
 fn plane() -> impl Strategy<Value = Plane> {
     (facing(), coordinate(), coordinate(), prop_oneof![Just(0.125), Just(1.0), 0.001..6.0_f64])
         .prop_map(|(facing, offset, start, extent)| Plane { facing, offset, start, end: start + extent })
@@ -39,7 +53,7 @@ proptest! {
     /// 10^4 sets of planes, ten queries each: 10^5 cases.
     #[test]
     fn bisection_agrees_with_scan(
-        planes in prop::collection::vec(plane(), 0..60),
+        planes in prop::collection::vec(prop_oneof![3 => plane(), 1 => splinter()], 0..60),
         queries in prop::collection::vec((facing(), coordinate(), coordinate(), 0.01..2.0_f64), 10),
     ) {
         let directed = SortedPlanes::new(planes).unwrap();
@@ -55,6 +69,21 @@ proptest! {
                 let near = in_order(sorted.planes_within(centre, radius));
                 prop_assert_eq!(near, in_order(sorted.planes_within_scan(centre, radius)));
             }
+        }
+    }
+
+    /// Where distances round to the same number the places of the planes tell which is nearer, in search and scan alike.
+    #[test]
+    fn bisection_agrees_with_scan_among_splinters(
+        planes in prop::collection::vec(splinter(), 1..40),
+        queries in prop::collection::vec((facing(), coordinate(), coordinate(), 0.01..9.0_f64), 10),
+    ) {
+        let sorted = SortedPlanes::new(planes).unwrap();
+        for (facing, x, y, radius) in queries {
+            let centre = Vector2::new(x, y);
+            let found = sorted.first_overlap(facing, centre, radius);
+            prop_assert_eq!(found, sorted.first_overlap_scan(facing, centre, radius));
+            prop_assert_eq!(sorted.clearance(centre), sorted.clearance_scan(centre));
         }
     }
 

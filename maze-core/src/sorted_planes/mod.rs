@@ -147,13 +147,10 @@ impl SortedPlanes {
     /// The plain O(n) truth that [`SortedPlanes::first_overlap`] is tested against.
     pub fn first_overlap_scan(&self, facing: Facing, centre: Vector2<f64>, radius: f64) -> Option<Plane> {
         let (across, along) = (centre[facing.axis()], centre[1 - facing.axis()]);
-        let rank = |plane: &Plane| (-facing.sign() * plane.offset, plane.gap(along), plane.start);
-        self.planes(facing).filter(|plane| is_within(plane.offset - across, plane.gap(along), radius)).min_by(
-            |a, b| {
-                let (a, b) = (rank(a), rank(b));
-                a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2))
-            },
-        )
+        let by_row = |plane: &Plane| -facing.sign() * plane.offset;
+        self.planes(facing)
+            .filter(|plane| is_within(plane.offset - across, plane.gap(along), radius))
+            .min_by(|a, b| by_row(a).total_cmp(&by_row(b)).then_with(|| a.compare_distance(b, along)))
     }
 
     /// The rows of one group with offsets in a closed range, in the direction of motion of a ball that they stop.

@@ -3,6 +3,7 @@
 use super::{Face, SortedPlanes, WIDENED, is_within};
 use crate::plane::{Facing, Plane};
 use nalgebra::Vector2;
+use std::cmp::Ordering;
 
 /// The plane nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,15 +21,22 @@ fn squared_distance(plane: &Plane, centre: Vector2<f64>) -> f64 {
     across * across + along * along
 }
 
-/// The nearest plane so far; of equally near ones the first in the order of facing, offset, start.
+/// The nearest plane so far; of equally near ones the first in the order of facing and offset, then the lower one.
 #[derive(Default)]
 struct Nearest(Option<(f64, Plane)>);
 
 impl Nearest {
     fn offer(&mut self, plane: Plane, centre: Vector2<f64>) {
         let squared = squared_distance(&plane, centre);
-        let rank = |(squared, plane): (f64, Plane)| (squared, plane.facing, plane.offset, plane.start);
-        if self.0.is_none_or(|known| rank((squared, plane)) < rank(known)) {
+        let rank = |(squared, plane): (f64, Plane)| (squared, plane.facing, plane.offset);
+        let is_nearer = |known: (f64, Plane)| match rank((squared, plane)).partial_cmp(&rank(known)) {
+            // Distances that round to the same number: in a row the places of the planes tell.
+            Some(Ordering::Equal) => {
+                plane.compare_distance(&known.1, centre[1 - plane.facing.axis()]).is_lt()
+            }
+            order => order == Some(Ordering::Less),
+        };
+        if self.0.is_none_or(is_nearer) {
             self.0 = Some((squared, plane));
         }
     }
@@ -95,7 +103,7 @@ impl SortedPlanes {
 
     /// The plane nearest to a point, whichever way it looks; `None` when there is none at all.
     ///
-    /// Of equally near planes the first in the order of facing, offset, start. Needs a finite `centre`. O(log n) for each
+    /// Of equally near planes the first in the order of facing and offset, then the lower one. Needs a finite `centre`. O(log n) for each
     /// row that is nearer than the plane found.
     pub fn clearance(&self, centre: Vector2<f64>) -> Option<Clearance> {
         let mut nearest = Nearest::default();
