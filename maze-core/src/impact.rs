@@ -107,6 +107,7 @@ impl Path {
 ///
 /// `None` when it moves away, runs parallel, or passes beside. A centre behind the face counts as beside it: the touch is
 /// the fall after it has come round to the front.
+#[inline]
 pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
     let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
     let gap = (path.position[axis] - plane.offset) * sign - radius;
@@ -138,6 +139,7 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
 /// When a circle that rises from behind a face is at its highest, if it gets there as near as a touch: it has come over the
 /// corner that it grazes.
 #[cold]
+#[inline(never)]
 fn skims(path: &Path, radius: f64, gap: f64, rise: f64, pull: f64) -> Option<f64> {
     let highest = gap - rise * rise / (2.0 * pull);
     (-tolerance::touch(radius, path.position) < highest).then_some(-rise / pull)
@@ -145,6 +147,7 @@ fn skims(path: &Path, radius: f64, gap: f64, rise: f64, pull: f64) -> Option<f64
 
 /// When a circle that has fallen to the level of a face beside it comes over the face, still touching.
 #[cold]
+#[inline(never)]
 fn enters(path: &Path, radius: f64, plane: &Plane, beside_s: f64) -> Option<f64> {
     let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
     let (along, speed) = (path.at(beside_s)[1 - axis], path.velocity_at(beside_s)[1 - axis]);
@@ -401,6 +404,7 @@ impl<'a> First<'a> {
     /// Which of two impacts at the same time counts: a face before a point, then the nearer one, then the one that is approached
     /// faster. All of that is the same in a scene that is mirrored or turned; only then the coordinates decide.
     #[cold]
+    #[inline(never)]
     fn comes_first(&self, one: &Impact, other: &Impact) -> bool {
         let (centre, velocity) = (self.path.at(one.time_s), self.path.velocity_at(one.time_s));
         let order = |feature: &Feature| {

@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 const MAGIC: &[u8; 8] = b"MAZERUN\n";
 
 /// Version of the format and of everything that decides the motion: raised when an old recording would end elsewhere.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 
 /// Longest recording: ten hours of ticks of 0.03 s, 5 MB.
 pub const MAX_TICKS: usize = 1_200_000;
@@ -217,7 +217,7 @@ mod tests {
         other[MAGIC.len()] = 9;
         assert_eq!(
             Recording::from_bytes(&other).unwrap_err().to_string(),
-            "a recording of version 9: this program plays version 2"
+            "a recording of version 9: this program plays version 3"
         );
         let mut absurd = bytes;
         absurd[MAGIC.len() + 4 + 7] = 0xff;

@@ -67,6 +67,15 @@ fn finishes_mazes_of_every_algorithm_with_and_without_loops() {
 }
 
 #[test]
+fn a_ball_that_starts_on_the_goal_is_done_at_once() {
+    let mut maze = maze(6, 6, 3);
+    maze.goal = maze.start;
+    let ball = Ball::at(maze.start);
+    let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
+    assert_eq!(play(&maze, &mut engine), Some(1));
+}
+
+#[test]
 fn the_same_maze_is_played_the_same_way() {
     let maze = maze(6, 6, 3);
     let play = || {

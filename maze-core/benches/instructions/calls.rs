@@ -5,7 +5,7 @@ mod noise;
 
 use maze_core::impact::{self, Path};
 use maze_core::{
-    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Published, SortedPlanes,
+    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Maze, Plane, Published, SortedPlanes,
 };
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
@@ -24,19 +24,37 @@ type Made = Result<Box<dyn Engine>, Box<dyn Error>>;
 type Prepare = fn() -> Result<Round, Box<dyn Error>>;
 
 /// Every call that is counted, by name.
-pub(crate) const CALLS: [(&str, Prepare); 6] = [
+pub(crate) const CALLS: [(&str, Prepare); 7] = [
     ("impact::first, 0.1 corridors", || first(0.1)),
     ("impact::first, 10 corridors", || first(10.0)),
-    ("Continuous::tick, rolling", || rolling(|planes, ball| exact(planes, BallSpec::default(), ball))),
+    ("Continuous::tick, rolling", || {
+        rolling(usual, |engine, pull| {
+            let _ = black_box(engine.tick(pull));
+        })
+    }),
+    // As the game plays it: the last hit is kept.
+    ("Continuous::tick_observed, rolling", || {
+        let mut last_hit = None;
+        rolling(usual, move |engine, pull| {
+            let mut observer = |hit: &Hit| last_hit = Some(*hit);
+            let _ = black_box(engine.tick_observed(pull, &mut observer));
+        })
+    }),
     ("Continuous::tick, bouncing", bouncing),
     ("Published::tick, rolling", || {
-        rolling(|planes, ball| Ok(Box::new(Published::new(planes, BallSpec::default(), ball)?)))
+        let published = |planes, ball| Ok(Box::new(Published::new(planes, BallSpec::default(), ball)?) as _);
+        rolling(published, |engine, pull| {
+            let _ = black_box(engine.tick(pull));
+        })
     }),
     ("SortedPlanes::new, a plane", build),
 ];
 
-/// As many queries or ticks as make a round.
+/// As many queries as make a round.
 const N: u32 = 2000;
+
+/// As many ticks: enough that it does not show where a ball happens to roll.
+const N_TICKS: u32 = 100_000;
 
 const TICK_S: f64 = 0.03;
 
@@ -78,19 +96,26 @@ fn exact(planes: Arc<SortedPlanes>, spec: BallSpec, ball: Ball) -> Made {
     Ok(Box::new(Continuous::new(planes, spec, ball, TICK_S)?))
 }
 
+fn usual(planes: Arc<SortedPlanes>, ball: Ball) -> Made {
+    exact(planes, BallSpec::default(), ball)
+}
+
 /// One ball tick after tick, under a pull of 1 unit/s² that turns once in about 3 s.
-fn rolling(engine: fn(Arc<SortedPlanes>, Ball) -> Made) -> Result<Round, Box<dyn Error>> {
+fn rolling(
+    engine: fn(Arc<SortedPlanes>, Ball) -> Made,
+    mut tick: impl FnMut(&mut dyn Engine, Vector2<f64>) + 'static,
+) -> Result<Round, Box<dyn Error>> {
     let mut engine = engine(planes()?, Ball::at(centre(SIDE / 2, SIDE / 2)))?;
     // A turn of 3.6 degrees in whole numbers: 1023² + 64² = 1025².
     let (cos, sin) = (1023.0 / 1025.0, 64.0 / 1025.0);
     let mut pull = Vector2::new(1.0, 0.0);
     let make = move || {
-        for _ in 0..N {
+        for _ in 0..N_TICKS {
             pull = Vector2::new(cos * pull.x - sin * pull.y, sin * pull.x + cos * pull.y);
-            let _ = black_box(engine.tick(black_box(pull)));
+            tick(engine.as_mut(), black_box(pull));
         }
     };
-    Ok(Round { n_calls: N as usize, make: Box::new(make) })
+    Ok(Round { n_calls: N_TICKS as usize, make: Box::new(make) })
 }
 
 /// One ball that bounces without loss, at 30 units/s: more than one hit a tick.
@@ -99,11 +124,11 @@ fn bouncing() -> Result<Round, Box<dyn Error>> {
     let spec = BallSpec { restitution: 1.0, ..BallSpec::default() };
     let mut engine = exact(planes()?, spec, start)?;
     let make = move || {
-        for _ in 0..N {
+        for _ in 0..N_TICKS {
             let _ = black_box(engine.tick(black_box(Vector2::zeros())));
         }
     };
-    Ok(Round { n_calls: N as usize, make: Box::new(make) })
+    Ok(Round { n_calls: N_TICKS as usize, make: Box::new(make) })
 }
 
 /// A round builds one structure, from planes in no order; a call is one plane of it.

@@ -148,14 +148,13 @@ impl Clearing {
     fn pass_along(&self, axis: usize, ball: Ball, pull: f64, time_s: f64) -> Option<(f64, f64)> {
         let (from, speed) = (ball.position[axis], ball.velocity[axis]);
         if self.carried[axis] != 0.0 {
-            let stays = pull * self.carried[axis] < 0.0 && speed == 0.0 && from == self.low[axis];
-            return stays.then_some((from, 0.0));
+            return (pull * self.carried[axis] < 0.0).then_some((from, 0.0));
         }
         let to = from + (speed + pull * (time_s / 2.0)) * time_s;
         let end_speed = speed + pull * time_s;
         // Where it turns, it goes no farther than it would have gone at its first speed.
         let farthest = if speed * end_speed < 0.0 { from + speed * time_s } else { to };
-        let stays = self.holds(axis, from) && self.holds(axis, to) && self.holds(axis, farthest);
+        let stays = self.holds(axis, to) && self.holds(axis, farthest);
         stays.then_some((to, end_speed))
     }
 }

@@ -4,6 +4,8 @@
 //! take an ulp, nooks, staircases of steps down to 1e-9, floors with slits, faces an ulp apart. Balls, restitutions, tick
 //! lengths, accelerations and where the room lies come from the seed too.
 
+#![allow(dead_code, reason = "each test uses a part of it")]
+
 use super::noise::Noise;
 use maze_core::{Ball, BallSpec, Facing, Plane, Radius};
 use nalgebra::Vector2;

@@ -1,5 +1,7 @@
 //! Numbers that look random and are the same everywhere, for tests and the soak.
 
+#![allow(dead_code, reason = "each test uses a part of it")]
+
 use nalgebra::Vector2;
 
 /// splitmix64 (Steele, Lea, Flood 2014), started at a seed.
