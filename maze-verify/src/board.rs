@@ -76,18 +76,22 @@ impl Board {
     /// Whether the centre of a ball can have got from one place to the other by a way no longer than `way` (units) without
     /// crossing a wall; false also when it ended inside of one.
     pub fn can_have_moved(&self, from: Vector2<f64>, to: Vector2<f64>, way: f64) -> bool {
-        let (Some(start), Some(end)) = (self.grid.cell_at(from), self.grid.cell_at(to)) else {
-            // Beyond all walls there is nothing to cross, unless one was crossed to get there.
-            return self.grid.cell_at(from).is_none() == self.grid.cell_at(to).is_none();
+        let (start, end) = match (self.grid.cell_at(from), self.grid.cell_at(to)) {
+            // Beyond all walls there is nothing to cross.
+            (None, None) => return true,
+            // A way into the plan is a way out of it.
+            (None, Some(end)) => return !self.grid.solid[end] && self.can_have_moved(to, from, way),
+            (Some(start), end) => (start, end),
         };
-        if self.grid.solid[end] {
+        if end.map_or(self.grid.solid[start], |end| self.grid.solid[end]) {
             return false;
         }
         let mut seen = vec![false; self.grid.solid.len()];
         let mut open = vec![start];
         seen[start] = true;
         while let Some(cell) = open.pop() {
-            if cell == end {
+            let is_there = end.map_or_else(|| self.grid.distance_to_rim(cell, from) <= way, |end| end == cell);
+            if is_there {
                 return true;
             }
             for next in self.grid.neighbours(cell) {
@@ -281,6 +285,20 @@ impl Grid {
         beside.into_iter().flatten()
     }
 
+    /// From a point to the nearest side of a cell that is a side of the whole plan; infinite where it has none.
+    fn distance_to_rim(&self, cell: usize, point: Vector2<f64>) -> f64 {
+        let (column, row) = (cell % self.n_columns(), cell / self.n_columns());
+        let to_sides = |across: [(&[f64], usize, f64); 2]| {
+            let [(cuts, index, value), (along_cuts, along_index, along)] = across;
+            let beside = along.clamp(along_cuts[along_index], along_cuts[along_index + 1]) - along;
+            let low = (index == 0).then(|| cuts[0] - value);
+            let high = (index + 2 == cuts.len()).then(|| cuts[index + 1] - value);
+            low.into_iter().chain(high).map(|across| across.hypot(beside)).fold(f64::INFINITY, f64::min)
+        };
+        let [x, y]: [(&[f64], usize, f64); 2] = [(&self.xs, column, point.x), (&self.ys, row, point.y)];
+        to_sides([x, y]).min(to_sides([y, x]))
+    }
+
     /// From a point to the nearest point of a cell.
     fn distance(&self, cell: usize, point: Vector2<f64>) -> f64 {
         let (column, row) = (cell % self.n_columns(), cell / self.n_columns());
@@ -388,6 +406,11 @@ mod tests {
         assert!(board.can_have_moved(left, right, 4.0));
         assert!(!board.can_have_moved(left, Vector2::new(0.05, 0.0), 4.0), "inside the wall");
         assert!(board.can_have_moved(left, Vector2::new(-1.5, 2.0), 3.0));
+        // Off the plan to the left, and back; to the right only around the wall.
+        let (far_left, far_right) = (Vector2::new(-5.5, 0.0), Vector2::new(5.5, 0.0));
+        assert!(board.can_have_moved(left, far_left, 5.0) && board.can_have_moved(far_left, left, 5.0));
+        assert!(!board.can_have_moved(left, far_right, 4.0));
+        assert!(!board.can_have_moved(right, Vector2::new(1.0, -5.5), 5.6), "through the floor");
     }
 
     #[test]
