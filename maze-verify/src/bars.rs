@@ -6,8 +6,8 @@ use crate::relaxation::Relaxation;
 use crate::results::SceneResult;
 use crate::scene;
 use crate::scene::Family::{
-    self, Bounce, Corner, Drop, FreeEnd, Graze, Level, Maze, Narrow, Own, RollOver, Seams, Slide, Slit, Speed, Step, Tilt,
-    Wedge,
+    self, Bounce, Corner, Drop, FreeEnd, Graze, Level, Maze, Narrow, Own, RollOver, Seams, Slide, Slit,
+    Speed, Step, Tilt, Wedge,
 };
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +63,8 @@ pub struct Verdict {
 
 const ALL: &[Family] = &Family::ALL;
 const NAMED: &[Family] = &[
-    Tilt, Bounce, Drop, Corner, Graze, Slide, Seams, Speed, Wedge, RollOver, Step, Slit, FreeEnd, Narrow, Maze, Level,
+    Tilt, Bounce, Drop, Corner, Graze, Slide, Seams, Speed, Wedge, RollOver, Step, Slit, FreeEnd, Narrow,
+    Maze, Level,
 ];
 /// Without those families that are about two contacts at once and about edges: of these the report's method knows nothing, and
 /// its errors there are told, not bound.

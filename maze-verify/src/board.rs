@@ -90,7 +90,8 @@ impl Board {
         let mut open = vec![start];
         seen[start] = true;
         while let Some(cell) = open.pop() {
-            let is_there = end.map_or_else(|| self.grid.distance_to_rim(cell, from) <= way, |end| end == cell);
+            let is_there =
+                end.map_or_else(|| self.grid.way_over_rim(cell, [from, to]) <= way, |end| end == cell);
             if is_there {
                 return true;
             }
@@ -285,18 +286,26 @@ impl Grid {
         beside.into_iter().flatten()
     }
 
-    /// From a point to the nearest side of a cell that is a side of the whole plan; infinite where it has none.
-    fn distance_to_rim(&self, cell: usize, point: Vector2<f64>) -> f64 {
-        let (column, row) = (cell % self.n_columns(), cell / self.n_columns());
-        let to_sides = |across: [(&[f64], usize, f64); 2]| {
-            let [(cuts, index, value), (along_cuts, along_index, along)] = across;
-            let beside = along.clamp(along_cuts[along_index], along_cuts[along_index + 1]) - along;
-            let low = (index == 0).then(|| cuts[0] - value);
-            let high = (index + 2 == cuts.len()).then(|| cuts[index + 1] - value);
-            low.into_iter().chain(high).map(|across| across.hypot(beside)).fold(f64::INFINITY, f64::min)
-        };
-        let [x, y]: [(&[f64], usize, f64); 2] = [(&self.xs, column, point.x), (&self.ys, row, point.y)];
-        to_sides([x, y]).min(to_sides([y, x]))
+    /// Length of the shortest way between two points through a side of a cell that is a side of the whole plan, as if nothing
+    /// else was there; at most as long as any way. Infinite where the cell has none.
+    fn way_over_rim(&self, cell: usize, points: [Vector2<f64>; 2]) -> f64 {
+        let cell = [cell % self.n_columns(), cell / self.n_columns()];
+        let mut shortest = f64::INFINITY;
+        for axis in [0, 1] {
+            let cuts = [&self.xs, &self.ys];
+            let (across, along) = (cuts[axis], cuts[1 - axis]);
+            let range = [along[cell[1 - axis]], along[cell[1 - axis] + 1]];
+            let low = (cell[axis] == 0).then(|| across[0]);
+            let high = (cell[axis] + 2 == across.len()).then(|| across[cell[axis] + 1]);
+            for side in low.into_iter().chain(high) {
+                let to_side = |point: Vector2<f64>| {
+                    let beside = point[1 - axis].clamp(range[0], range[1]) - point[1 - axis];
+                    (point[axis] - side).hypot(beside)
+                };
+                shortest = shortest.min(points.map(to_side).iter().sum());
+            }
+        }
+        shortest
     }
 
     /// From a point to the nearest point of a cell.
@@ -408,7 +417,7 @@ mod tests {
         assert!(board.can_have_moved(left, Vector2::new(-1.5, 2.0), 3.0));
         // Off the plan to the left, and back; to the right only around the wall.
         let (far_left, far_right) = (Vector2::new(-5.5, 0.0), Vector2::new(5.5, 0.0));
-        assert!(board.can_have_moved(left, far_left, 5.0) && board.can_have_moved(far_left, left, 5.0));
+        assert!(board.can_have_moved(left, far_left, 5.1) && board.can_have_moved(far_left, left, 5.1));
         assert!(!board.can_have_moved(left, far_right, 4.0));
         assert!(!board.can_have_moved(right, Vector2::new(1.0, -5.5), 5.6), "through the floor");
     }

@@ -23,11 +23,7 @@ const BLOCKS: [Block; 5] = [
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
     },
-    Block {
-        title: "Off the place where the ball must rest (units)",
-        value: |m| m.rest_error,
-        shown: plain,
-    },
+    Block { title: "Off the place where the ball must rest (units)", value: |m| m.rest_error, shown: plain },
     Block {
         title: "Angle error after the first bounce (degrees)",
         value: |m| m.errors.as_ref()?.angle_deg,

@@ -83,7 +83,11 @@ fn wedges() -> Vec<Scene> {
             gravity: onto_wall,
             duration_s: 10.0,
             rest: Some(Vector2::new(beside_wall, rise(beside_wall))),
-            ..scene("wedge-corner-wall", "Between a corner and a wall nearer than the ball is wide.", Family::Wedge)
+            ..scene(
+                "wedge-corner-wall",
+                "Between a corner and a wall nearer than the ball is wide.",
+                Family::Wedge,
+            )
         },
         Scene {
             walls: Walls::Rectangles(vec![wall([-6.0, -3.0], [0.0, 0.0]), wall([R, -3.0], [2.0, 3.0])]),
@@ -107,9 +111,8 @@ fn around(family: Family, name: &str, about: &str, block: Bounds, gravity: Gravi
 }
 
 fn roll_overs() -> Vec<Scene> {
-    let off = |name: &str, about: &str, gravity: Gravity| {
-        around(Family::RollOver, name, about, ledge(), gravity)
-    };
+    let off =
+        |name: &str, about: &str, gravity: Gravity| around(Family::RollOver, name, about, ledge(), gravity);
     let slowly = |name: &str, speed: f64| Scene {
         ball: ball([-speed, R], [speed, 0.0]),
         ..off(name, &format!("Off the edge of a block with {speed} units/s."), PRESSED)
@@ -156,10 +159,8 @@ fn floor(
 
 fn steps() -> Vec<Scene> {
     let step = |name: String, about: String, height: f64, speed: f64| {
-        let stretches = vec![
-            Stretch { start: -9.0, end: 0.0, height: 0.0 },
-            Stretch { start: 0.0, end: 9.0, height },
-        ];
+        let stretches =
+            vec![Stretch { start: -9.0, end: 0.0, height: 0.0 }, Stretch { start: 0.0, end: 9.0, height }];
         floor(Family::Step, name, about, stretches, [-speed, speed])
     };
     let down = |height: f64, speed: f64| {
@@ -212,7 +213,9 @@ fn slits() -> Vec<Scene> {
         let about = format!("Over {N_SLITS} slits of {width:e} with {speed} units/s.");
         floor(Family::Slit, format!("slit-{width:e}-{speed}"), about, stretches, [0.0, speed])
     };
-    [(1.0e-12, 0.8), (1.0e-9, 0.8), (1.0e-6, 0.8), (1.0e-3, 0.8), (1.0e-3, 3.0), (0.01, 0.8)].map(slit).to_vec()
+    [(1.0e-12, 0.8), (1.0e-9, 0.8), (1.0e-6, 0.8), (1.0e-3, 0.8), (1.0e-3, 3.0), (0.01, 0.8)]
+        .map(slit)
+        .to_vec()
 }
 
 fn free_ends() -> Vec<Scene> {
@@ -232,7 +235,11 @@ fn free_ends() -> Vec<Scene> {
     };
     vec![
         climb("free-end-over", "Up the side of a wall a thousandth thick and over its end.", 1.2),
-        climb("free-end-back", "Up the side of a wall a thousandth thick, onto its end, and back down.", 1.05),
+        climb(
+            "free-end-back",
+            "Up the side of a wall a thousandth thick, onto its end, and back down.",
+            1.05,
+        ),
         Scene { spec: rolling(), ..climb("free-end-back-rolling", "The same by a rolling ball.", 0.9) },
         Scene {
             ball: ball([0.0005, R], [0.01, 0.0]),
@@ -247,7 +254,12 @@ fn free_ends() -> Vec<Scene> {
         Scene {
             ball: ball([-0.1, R], [1.04, 0.0]),
             duration_s: 2.0,
-            ..end("free-end-around", "Around the end of a shelf a thousandth thick, past both of its edges.", level, hugging)
+            ..end(
+                "free-end-around",
+                "Around the end of a shelf a thousandth thick, past both of its edges.",
+                level,
+                hugging,
+            )
         },
     ]
 }
@@ -292,7 +304,11 @@ fn narrows() -> Vec<Scene> {
             ball: ball([1.0, R], [0.0, 0.0]),
             gravity: askew,
             duration_s: 2.0,
-            ..corridor("narrow-ulp-askew", "The same, the ball pressed onto one side and along.", width.next_up())
+            ..corridor(
+                "narrow-ulp-askew",
+                "The same, the ball pressed onto one side and along.",
+                width.next_up(),
+            )
         },
         closed("narrow-closed-0", 0.0),
         closed("narrow-closed-1", 1.0),

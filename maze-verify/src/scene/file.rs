@@ -368,6 +368,20 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
     }
 
     #[test]
+    fn a_place_of_rest_and_a_way_around_a_block_are_read() {
+        let still = GOOD.replace("gravity.sinusoidal = { amplitude_deg = [5, 0], frequency_hz = 0.5 }", "");
+        let with = |truth: &str| read(&still.replace("truth.room = { left = 1, right = 3 }", truth));
+        let scene = with("truth.rest = { place = [1.3, 2] }").unwrap().swap_remove(0);
+        assert_eq!((scene.truth, scene.rest), (None, Some(Vector2::new(1.3, 2.0))));
+        let scene = with("truth.around = { block = [0, 0, 1, 5] }").unwrap().swap_remove(0);
+        assert!(matches!(scene.truth, Some(Motion::Around { block }) if block.high.y == 5.0));
+        assert!(with("truth.around = { block = [1, 0, 0, 5] }").unwrap_err().reason.contains("around"));
+        let swinging =
+            GOOD.replace("truth.room = { left = 1, right = 3 }", "truth.rest = { place = [1, 2] }");
+        assert!(read(&swinging).unwrap_err().reason.contains("held still"));
+    }
+
+    #[test]
     fn the_example_of_the_documentation_is_good() {
         let page = include_str!("../../../docs/verification.md");
         let begin = page.find("```toml\n").unwrap() + "```toml\n".len();

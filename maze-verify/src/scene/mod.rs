@@ -240,10 +240,8 @@ mod tests {
     #[test]
     fn a_ball_in_a_wall_is_refused() {
         let mut scene = catalogue().swap_remove(0);
-        scene.walls = Walls::Rectangles(vec![Bounds {
-            low: Vector2::new(-9.0, -9.0),
-            high: Vector2::new(9.0, 9.0),
-        }]);
+        scene.walls =
+            Walls::Rectangles(vec![Bounds { low: Vector2::new(-9.0, -9.0), high: Vector2::new(9.0, 9.0) }]);
         assert!(matches!(scene.set_up(), Err(SceneError::InWall { .. })));
     }
 }

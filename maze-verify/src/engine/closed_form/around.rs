@@ -13,7 +13,8 @@ const NEAR: f64 = 1.0e-12;
 
 /// The outward normal of a side: right, top, left, bottom. Its tangent counter-clockwise is the normal of the next one.
 fn normal(side: usize) -> Vector2<f64> {
-    [Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0), Vector2::new(-1.0, 0.0), Vector2::new(0.0, -1.0)][side % 4]
+    [Vector2::new(1.0, 0.0), Vector2::new(0.0, 1.0), Vector2::new(-1.0, 0.0), Vector2::new(0.0, -1.0)]
+        [side % 4]
 }
 
 /// Where a side meets the next one counter-clockwise.

@@ -153,10 +153,7 @@ impl Way<'_> {
         let between = Vector2::new(next.start, next.height) - point;
         let half = between.norm() / (2.0 * self.radius);
         let along = between.normalize();
-        Touch {
-            normal: along * half + turned(along) * ((1.0 - half) * (1.0 + half)).sqrt(),
-            is_point: true,
-        }
+        Touch { normal: along * half + turned(along) * ((1.0 - half) * (1.0 + half)).sqrt(), is_point: true }
     }
 
     /// From the air: onto the next stretch, or onto its edge first.
@@ -189,8 +186,7 @@ impl Way<'_> {
     fn reflected(&self, ball: Ball, point: Vector2<f64>, next: &Stretch, taken_s: f64) -> Option<Crossing> {
         let normal = (ball.position - point).normalize();
         let approach = ball.velocity.dot(&normal);
-        let after =
-            Ball { velocity: ball.velocity - normal * ((1.0 + self.restitution) * approach), ..ball };
+        let after = Ball { velocity: ball.velocity - normal * ((1.0 + self.restitution) * approach), ..ball };
         let beside =
             arrival(point.x - ball.position.x, after.velocity.x, self.acceleration.x, point.x, -1.0)?.time_s;
         let is_clear = (1..=N_CHECKS).all(|k| {
