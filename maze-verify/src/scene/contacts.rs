@@ -27,7 +27,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     groups.into_iter().flatten().collect()
 }
 
-/// Where a ball lies below the origin's floor and the corner of a block `height` above it.
+/// Where a ball lies on the floor y = 0 and touches the corner of a block `height` above it, R < `height` < 2 R.
 fn under_corner(height: f64) -> Vector2<f64> {
     let above = height - R;
     Vector2::new(-((R - above) * (R + above)).sqrt(), R)
