@@ -194,7 +194,10 @@ fn touches_point(
     let is_touch = |t: f64| {
         let approach = half_slope(t) / radius;
         let graze = PASSING * from_point.velocity_at(t).norm();
-        approach < -graze || (approach <= graze && half_curve(t) < 0.0)
+        // So does a slow one along which the acceleration leads but for this fraction: a ball that slides on a face, and all but
+        // stands over its end, is not pressed onto that.
+        let is_pressed = from_point.at(t).dot(&a) < -PASSING * radius * a.norm();
+        approach < -graze || (approach <= graze && is_pressed && half_curve(t) < 0.0)
     };
     if !has_left && excess(0.0) <= 0.0 && is_touch(0.0) {
         return Some(0.0);

@@ -76,18 +76,23 @@ impl Board {
     /// Whether the centre of a ball can have got from one place to the other by a way no longer than `way` (units) without
     /// crossing a wall; false also when it ended inside of one.
     pub fn can_have_moved(&self, from: Vector2<f64>, to: Vector2<f64>, way: f64) -> bool {
-        let (Some(start), Some(end)) = (self.grid.cell_at(from), self.grid.cell_at(to)) else {
-            // Beyond all walls there is nothing to cross, unless one was crossed to get there.
-            return self.grid.cell_at(from).is_none() == self.grid.cell_at(to).is_none();
+        let (start, end) = match (self.grid.cell_at(from), self.grid.cell_at(to)) {
+            // Beyond all walls there is nothing to cross.
+            (None, None) => return true,
+            // A way into the plan is a way out of it.
+            (None, Some(end)) => return !self.grid.solid[end] && self.can_have_moved(to, from, way),
+            (Some(start), end) => (start, end),
         };
-        if self.grid.solid[end] {
+        if end.map_or(self.grid.solid[start], |end| self.grid.solid[end]) {
             return false;
         }
         let mut seen = vec![false; self.grid.solid.len()];
         let mut open = vec![start];
         seen[start] = true;
         while let Some(cell) = open.pop() {
-            if cell == end {
+            let is_there =
+                end.map_or_else(|| self.grid.way_over_rim(cell, [from, to]) <= way, |end| end == cell);
+            if is_there {
                 return true;
             }
             for next in self.grid.neighbours(cell) {
@@ -281,6 +286,28 @@ impl Grid {
         beside.into_iter().flatten()
     }
 
+    /// Length of the shortest way between two points through a side of a cell that is a side of the whole plan, as if nothing
+    /// else was there; at most as long as any way. Infinite where the cell has none.
+    fn way_over_rim(&self, cell: usize, points: [Vector2<f64>; 2]) -> f64 {
+        let cell = [cell % self.n_columns(), cell / self.n_columns()];
+        let mut shortest = f64::INFINITY;
+        for axis in [0, 1] {
+            let cuts = [&self.xs, &self.ys];
+            let (across, along) = (cuts[axis], cuts[1 - axis]);
+            let range = [along[cell[1 - axis]], along[cell[1 - axis] + 1]];
+            let low = (cell[axis] == 0).then(|| across[0]);
+            let high = (cell[axis] + 2 == across.len()).then(|| across[cell[axis] + 1]);
+            for side in low.into_iter().chain(high) {
+                let to_side = |point: Vector2<f64>| {
+                    let beside = point[1 - axis].clamp(range[0], range[1]) - point[1 - axis];
+                    (point[axis] - side).hypot(beside)
+                };
+                shortest = shortest.min(points.map(to_side).iter().sum());
+            }
+        }
+        shortest
+    }
+
     /// From a point to the nearest point of a cell.
     fn distance(&self, cell: usize, point: Vector2<f64>) -> f64 {
         let (column, row) = (cell % self.n_columns(), cell / self.n_columns());
@@ -388,6 +415,11 @@ mod tests {
         assert!(board.can_have_moved(left, right, 4.0));
         assert!(!board.can_have_moved(left, Vector2::new(0.05, 0.0), 4.0), "inside the wall");
         assert!(board.can_have_moved(left, Vector2::new(-1.5, 2.0), 3.0));
+        // Off the plan to the left, and back; to the right only around the wall.
+        let (far_left, far_right) = (Vector2::new(-5.5, 0.0), Vector2::new(5.5, 0.0));
+        assert!(board.can_have_moved(left, far_left, 5.1) && board.can_have_moved(far_left, left, 5.1));
+        assert!(!board.can_have_moved(left, far_right, 4.0));
+        assert!(!board.can_have_moved(right, Vector2::new(1.0, -5.5), 5.6), "through the floor");
     }
 
     #[test]

@@ -82,8 +82,8 @@ pub fn build(
     let planes = board.planes().clone();
     let rapier = |walls| RapierEngine::new(board, walls, spec, ball, tick_s);
     Ok(Some(match contender {
-        Contender::ClosedForm => match stage.scene.truth {
-            Some(motion) => Box::new(ClosedForm::new(motion, spec, ball, tick_s)?),
+        Contender::ClosedForm => match &stage.scene.truth {
+            Some(motion) => Box::new(ClosedForm::new(motion.clone(), spec, ball, tick_s)?),
             None => return Ok(None),
         },
         Contender::Continuous => Box::new(Continuous::new(planes, spec, ball, tick_s)?),

@@ -15,6 +15,9 @@ pub const REST_SPEED: f64 = 0.01;
 /// And for at least this long (s).
 const REST_S: f64 = 0.1;
 
+/// A ball that shall lie at rest in the end is off by its way in this time (s) too.
+const AFTER_REST_S: f64 = 1.0;
+
 /// Deeper than this (units) is counted as a tick in a wall: above the rounding of f32 at 10 units (1e-6), far below what
 /// is seen.
 pub const COUNTED_DEPTH: f64 = 1.0e-4;
@@ -132,6 +135,9 @@ pub struct Metrics {
     pub energy_gain_part: f64,
     /// From when on it rests (s).
     pub rest_s: Option<f64>,
+    /// Distance of the last place to where the ball lies by formula, and the way of a second at the last speed (units); only
+    /// where that place is known.
+    pub rest_error: Option<f64>,
     /// Mean speed (units/s).
     pub mean_speed: f64,
     /// Farthest from the start (units).
@@ -218,6 +224,12 @@ impl Track {
         is_rest.then(|| (self.balls.len() - n_still) as f64 * self.tick_s)
     }
 
+    /// How far from rest at a place it ends (units).
+    fn rest_error(&self, place: Vector2<f64>) -> f64 {
+        let last = self.balls[self.balls.len() - 1];
+        (last.position - place).norm() + last.velocity.norm() * AFTER_REST_S
+    }
+
     fn way(&self) -> f64 {
         self.balls.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).sum()
     }
@@ -245,7 +257,7 @@ fn angle_between_deg(a: Vector2<f64>, b: Vector2<f64>) -> Option<f64> {
 
 /// Height above the wall that a constant gravity pulls towards, if the scene has a closed form that knows it.
 fn drop_of(stage: &Stage) -> Option<(usize, f64, f64, f64)> {
-    let crate::engine::Motion::Room { low, high } = stage.scene.truth? else { return None };
+    let crate::engine::Motion::Room { low, high } = stage.scene.truth.as_ref()? else { return None };
     if !stage.scene.gravity.is_constant() {
         return None;
     }
@@ -290,6 +302,7 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
         energy_gain,
         energy_gain_part: energy_gain / kinetic.max(REST_ENERGY * radius),
         rest_s: track.rest_s(),
+        rest_error: stage.scene.rest.map(|place| track.rest_error(place)),
         mean_speed: track.balls.iter().map(|ball| ball.velocity.norm()).sum::<f64>() / (n_ticks + 1.0),
         reach: largest(track.balls.iter().map(|ball| (ball.position - start).norm())),
         dropped_s: track.ticks.iter().map(|tick| tick.dropped_s).sum(),

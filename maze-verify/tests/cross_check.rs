@@ -71,6 +71,85 @@ fn the_engines_as_they_are_hold_every_bar() {
 }
 
 #[test]
+fn scenes_of_two_contacts_and_of_edges_hold_every_bar() {
+    let names = [
+        "wedge-0.4",
+        "wedge-0.4999999",
+        "wedge-corner-wall",
+        "roll-over-0.001",
+        "roll-over-back",
+        "roll-over-rolling",
+        "step-down-1e-9-0.5",
+        "step-up-5e-2-2",
+        "slit-1e-6-0.8",
+        "slit-1e-3-3",
+        "free-end-around",
+        "free-end-back",
+        "narrow-entry",
+        "narrow-closed-1",
+    ];
+    let results = results(&names, &[Contender::ClosedForm, Contender::Continuous], &build);
+    assert!(results.held(), "{}", report::table(&results));
+    for metric in [
+        "rest error",
+        "position error around edges",
+        "position error over steps, slits",
+        "position error without play",
+    ] {
+        let verdict = results.verdicts.iter().find(|verdict| verdict.metric == metric).unwrap();
+        assert!(4 < verdict.n_checked, "{metric}: {}", verdict.n_checked);
+    }
+}
+
+/// Each closed form is written for the scenes that it stands in: it would be no truth if it led through a wall or gained energy.
+#[test]
+fn no_closed_form_leads_through_a_wall_or_gains_energy() {
+    use maze_verify::scene::Family::{FreeEnd, Narrow, RollOver, Slit, Step};
+    let is_new = |scene: &Scene| matches!(scene.family, FreeEnd | Narrow | RollOver | Slit | Step);
+    let all = catalogue().into_iter().filter(|scene| scene.truth.is_some() && is_new(scene));
+    let all: Vec<(usize, Scene)> = all.enumerate().collect();
+    assert!(30 < all.len());
+    for scene in run(&all, &[Contender::ClosedForm], &build, &|_| {}).unwrap() {
+        for case in &scene.cases {
+            let metrics = &case.run(Contender::ClosedForm).unwrap().metrics;
+            assert!(metrics.penetration_max < 1.0e-12, "{}: {}", scene.name, metrics.penetration_max);
+            assert!(metrics.energy_gain_part < 1.0e-14, "{}: {}", scene.name, metrics.energy_gain_part);
+            assert_eq!(metrics.n_tunnels, 0, "{}", scene.name);
+        }
+    }
+}
+
+/// A ball that stays where it is held up, a millionth beside the place where it must rest.
+#[test]
+fn a_ball_that_rests_at_the_wrong_place_is_found() {
+    let broken = |contender: Contender, stage: &Stage, tick_s: f64| {
+        altered(contender, stage, tick_s, |stage| {
+            let mut walls = stage.board.rectangles().to_vec();
+            walls[1].low.y -= 1.0e-6;
+            stage.board = Board::from_rectangles(walls).unwrap();
+        })
+    };
+    assert_found(&results(&["wedge-0.4"], &[Contender::Continuous], &broken), "rest error", "wedge-0.4");
+}
+
+#[test]
+fn an_edge_that_is_missed_by_a_millionth_is_found() {
+    let broken = |contender: Contender, stage: &Stage, tick_s: f64| {
+        altered(contender, stage, tick_s, |stage| {
+            let mut walls = stage.board.rectangles().to_vec();
+            walls[0].high.x -= 1.0e-6;
+            stage.board = Board::from_rectangles(walls).unwrap();
+        })
+    };
+    for (scene, metric) in [
+        ("roll-over-0.2", "position error around edges"),
+        ("slit-1e-3-0.8", "position error over steps, slits"),
+    ] {
+        assert_found(&results(&[scene], &[Contender::Continuous], &broken), metric, scene);
+    }
+}
+
+#[test]
 fn a_restitution_off_by_one_percent_is_found() {
     let broken = |contender: Contender, stage: &Stage, tick_s: f64| {
         altered(contender, stage, tick_s, |stage| stage.scene.spec.restitution *= 0.99)

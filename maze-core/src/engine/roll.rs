@@ -268,7 +268,9 @@ impl Arc {
 
     /// The speed outwards, away from the top, where the energy is less than 0 and the ball stays on one side of it.
     fn outward(&self, along: f64) -> f64 {
-        let speed = self.speed(along).abs();
+        // At the turn itself the difference of the squares is rounding, the root of which is not small.
+        let turn = (-self.energy / self.full).sqrt();
+        let speed = if along.abs() == turn { 0.0 } else { self.speed(along).abs() };
         if along < 0.0 { -speed } else { speed }
     }
 

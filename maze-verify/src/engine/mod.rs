@@ -5,7 +5,7 @@ mod paced;
 mod rapier;
 mod rolling;
 
-pub use closed_form::{ClosedForm, Motion};
+pub use closed_form::{ClosedForm, Motion, Stretch};
 pub use paced::PacedPublished;
 pub use rapier::{RapierEngine, Walls};
 pub use rolling::RollingEngine;

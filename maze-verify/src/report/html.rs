@@ -395,7 +395,7 @@ fn liveliness(mazes: &[&SceneResult]) -> Plot {
 /// A column of a scene's table.
 type Column = (&'static str, fn(&Metrics) -> Option<String>);
 
-const COLUMNS: [Column; 11] = [
+const COLUMNS: [Column; 12] = [
     ("off by", |m| Some(plain(m.errors.as_ref()?.position))),
     ("of the way", |m| Some(percent(m.errors.as_ref()?.position_part))),
     ("bounces", |m| Some(m.n_bounces.to_string())),
@@ -406,6 +406,7 @@ const COLUMNS: [Column; 11] = [
     ("tunnels", |m| Some(m.n_tunnels.to_string())),
     ("parted", |m| Some(format!("{} s", plain(m.diverged_s?)))),
     ("ns a tick", |m| Some(plain(m.ns_per_tick))),
+    ("rest off by", |m| Some(plain(m.rest_error?))),
     ("rests", |m| Some(format!("{} s", plain(m.rest_s?)))),
 ];
 

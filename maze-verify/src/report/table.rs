@@ -17,12 +17,13 @@ struct Block {
     shown: fn(f64) -> String,
 }
 
-const BLOCKS: [Block; 4] = [
+const BLOCKS: [Block; 5] = [
     Block {
         title: "Position error, by the way gone",
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
     },
+    Block { title: "Off the place where the ball must rest (units)", value: |m| m.rest_error, shown: plain },
     Block {
         title: "Angle error after the first bounce (degrees)",
         value: |m| m.errors.as_ref()?.angle_deg,
@@ -98,13 +99,13 @@ impl Block {
             return;
         }
         let _ = writeln!(text, "{}", self.title);
-        let _ = write!(text, "  {:<8}", "");
+        let _ = write!(text, "  {:<9}", "");
         for engine in &engines {
             let _ = write!(text, " {:>15}", engine.name());
         }
         let _ = writeln!(text);
         for (family, worst) in rows {
-            let _ = write!(text, "  {:<8}", family.name());
+            let _ = write!(text, "  {:<9}", family.name());
             for value in worst {
                 let _ = write!(text, " {:>15}", value.map_or_else(|| "-".to_owned(), self.shown));
             }

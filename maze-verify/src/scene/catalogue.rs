@@ -1,6 +1,6 @@
 //! The named scenes.
 
-use super::{Family, Gravity, Scene, Walls, levels};
+use super::{Family, Gravity, Scene, Walls, contacts, levels};
 use crate::engine::Motion;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{Ball, BallSpec, Bounds, Radius};
@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 pub const TICKS_S: [f64; 5] = [0.03, 1.0 / 60.0, 1.0 / 120.0, 1.0 / 240.0, 0.001];
 
 /// Radius of the ball in the scenes (units).
-const R: f64 = 0.25;
+pub(super) const R: f64 = 0.25;
 
 /// Usual speed (units/s): some corridors a second, as in play.
 const SPEED: f64 = 3.0;
@@ -26,15 +26,15 @@ const LEVEL_MAX_DEG: f64 = MAX_DEG / 3.0;
 /// How many random mazes.
 const N_MAZES: u64 = 100;
 
-fn spec(restitution: f64) -> BallSpec {
+pub(super) fn spec(restitution: f64) -> BallSpec {
     BallSpec { radius: Radius::new(R).unwrap_or(BallSpec::RADIUS), restitution, ..BallSpec::default() }
 }
 
-fn wall([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> Bounds {
+pub(super) fn wall([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> Bounds {
     Bounds { low: Vector2::new(x0, y0), high: Vector2::new(x1, y1) }
 }
 
-fn ball(position: [f64; 2], velocity: [f64; 2]) -> Option<Ball> {
+pub(super) fn ball(position: [f64; 2], velocity: [f64; 2]) -> Option<Ball> {
     Some(Ball { position: position.into(), velocity: velocity.into() })
 }
 
@@ -46,7 +46,7 @@ fn ground() -> Vec<Bounds> {
 const ABOVE_GROUND: Motion = Motion::Room { low: [None, Some(0.0)], high: [None; 2] };
 
 /// On a level board, with restitution 0.8.
-fn scene(name: impl Into<String>, about: impl Into<String>, family: Family) -> Scene {
+pub(super) fn scene(name: impl Into<String>, about: impl Into<String>, family: Family) -> Scene {
     Scene {
         name: name.into(),
         about: about.into(),
@@ -58,12 +58,14 @@ fn scene(name: impl Into<String>, about: impl Into<String>, family: Family) -> S
         duration_s: 3.0,
         ticks_s: TICKS_S.to_vec(),
         truth: None,
+        rest: None,
     }
 }
 
 /// Every named scene, in the order of the report.
 pub fn catalogue() -> Vec<Scene> {
-    let groups = [tilts(), bounces(), drops(), corners(), slides(), speeds(), mazes(), levels()];
+    let groups =
+        [tilts(), bounces(), drops(), corners(), slides(), speeds(), contacts::scenes(), mazes(), levels()];
     groups.into_iter().flatten().collect()
 }
 
@@ -141,7 +143,7 @@ fn bounces() -> Vec<Scene> {
     scenes.push(Scene {
         walls: Walls::Rectangles(concave.clone()),
         ball: ball([2.0, 0.5], [SPEED, 2.0]),
-        truth,
+        truth: truth.clone(),
         ..scene("concave-corner", "Into a concave corner, one wall after the other.", Family::Bounce)
     });
     scenes.push(Scene {
@@ -199,13 +201,13 @@ fn corners() -> Vec<Scene> {
             format!("corner-{k:02}"),
             format!("At a convex corner, its centre {part:.2} radii beside it."),
             part * R,
-            at_origin,
+            at_origin.clone(),
         )
     };
     let mut scenes: Vec<Scene> = (1..=10).map(parameter).collect();
     for (name, about, excess, truth) in [
-        ("graze-in", "Grazes a corner by a thousandth of its radius.", -1.0e-3, at_origin),
-        ("graze-just-in", "Grazes a corner by a millionth of its radius.", -1.0e-6, at_origin),
+        ("graze-in", "Grazes a corner by a thousandth of its radius.", -1.0e-3, at_origin.clone()),
+        ("graze-just-in", "Grazes a corner by a millionth of its radius.", -1.0e-6, at_origin.clone()),
         ("graze-out", "Misses a corner by a millionth of its radius.", 1.0e-6, Motion::FREE),
     ] {
         let grazing = corner(name.to_owned(), about.to_owned(), R * (1.0 + excess), truth);

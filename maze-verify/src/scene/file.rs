@@ -96,6 +96,15 @@ enum GravityToml {
 enum TruthToml {
     Room(RoomToml),
     Corner { point: [f64; 2] },
+    Around { block: [f64; 4] },
+    Rest { place: [f64; 2] },
+}
+
+/// What a file states as true.
+enum Truth {
+    Motion(Motion),
+    /// The place at which the ball lies in the end.
+    Rest(Vector2<f64>),
 }
 
 #[derive(Deserialize)]
@@ -177,6 +186,11 @@ fn scene_from(place: &Text<'_>, scene: Spanned<SceneToml>) -> Result<Scene, Scen
     )?;
     let gravity = scene.gravity.map_or(Ok(Gravity::Flat), |gravity| gravity_from(place, &gravity))?;
     let truth = scene.truth.map(|truth| truth_from(place, truth, gravity)).transpose()?;
+    let (truth, rest) = match truth {
+        None => (None, None),
+        Some(Truth::Motion(motion)) => (Some(motion), None),
+        Some(Truth::Rest(place)) => (None, Some(place)),
+    };
     Ok(Scene {
         name,
         about: scene.about,
@@ -188,6 +202,7 @@ fn scene_from(place: &Text<'_>, scene: Spanned<SceneToml>) -> Result<Scene, Scen
         duration_s,
         ticks_s,
         truth,
+        rest,
     })
 }
 
@@ -277,13 +292,13 @@ fn truth_from(
     place: &Text<'_>,
     truth: Spanned<TruthToml>,
     gravity: Gravity,
-) -> Result<Motion, SceneFileError> {
+) -> Result<Truth, SceneFileError> {
     let span = truth.span();
     match truth.into_inner() {
         TruthToml::Room(RoomToml { left, right, below, above }) => {
             let all: Vec<f64> = [left, right, below, above].into_iter().flatten().collect();
             place.expect(is_in(&all, MAX_COORDINATE), span, "truth.room: expected at most 10000 units")?;
-            Ok(Motion::Room { low: [left, below], high: [right, above] })
+            Ok(Truth::Motion(Motion::Room { low: [left, below], high: [right, above] }))
         }
         TruthToml::Corner { point } => {
             let reason = "truth.corner holds without gravity only";
@@ -293,7 +308,22 @@ fn truth_from(
                 span,
                 "truth.corner: expected at most 10000 units",
             )?;
-            Ok(Motion::Corner { point: point.into() })
+            Ok(Truth::Motion(Motion::Corner { point: point.into() }))
+        }
+        TruthToml::Around { block: [left, below, right, above] } => {
+            let reason = "truth.around holds on a board held still only";
+            place.expect(gravity.is_constant(), span.clone(), reason)?;
+            let all = [left, below, right, above];
+            let reason = "truth.around: expected [left, below, right, above] of one wall";
+            place.expect(is_in(&all, MAX_COORDINATE) && left < right && below < above, span, reason)?;
+            let block = Bounds { low: Vector2::new(left, below), high: Vector2::new(right, above) };
+            Ok(Truth::Motion(Motion::Around { block }))
+        }
+        TruthToml::Rest { place: at } => {
+            let reason = "truth.rest holds on a board held still only";
+            place.expect(gravity.is_constant(), span.clone(), reason)?;
+            place.expect(is_in(&at, MAX_COORDINATE), span, "truth.rest: expected at most 10000 units")?;
+            Ok(Truth::Rest(at.into()))
         }
     }
 }
@@ -335,6 +365,20 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
         for scene in scenes {
             scene.set_up().unwrap();
         }
+    }
+
+    #[test]
+    fn a_place_of_rest_and_a_way_around_a_block_are_read() {
+        let still = GOOD.replace("gravity.sinusoidal = { amplitude_deg = [5, 0], frequency_hz = 0.5 }", "");
+        let with = |truth: &str| read(&still.replace("truth.room = { left = 1, right = 3 }", truth));
+        let scene = with("truth.rest = { place = [1.3, 2] }").unwrap().swap_remove(0);
+        assert_eq!((scene.truth, scene.rest), (None, Some(Vector2::new(1.3, 2.0))));
+        let scene = with("truth.around = { block = [0, 0, 1, 5] }").unwrap().swap_remove(0);
+        assert!(matches!(scene.truth, Some(Motion::Around { block }) if block.high.y == 5.0));
+        assert!(with("truth.around = { block = [1, 0, 0, 5] }").unwrap_err().reason.contains("around"));
+        let swinging =
+            GOOD.replace("truth.room = { left = 1, right = 3 }", "truth.rest = { place = [1, 2] }");
+        assert!(read(&swinging).unwrap_err().reason.contains("held still"));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Scenes: a maze, a ball and a tilting board as plain data.
 
 mod catalogue;
+mod contacts;
 mod file;
 mod gravity;
 mod levels;
@@ -13,6 +14,7 @@ use crate::board::Board;
 use crate::engine::Motion;
 use maze_core::layout::{Recipe, RecipeError};
 use maze_core::{AssembleError, AssembleOptions, Ball, BallSpec, Bounds, Maze, PlaneError, extrude, import};
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 /// What a scene is about; bars and summary speak of families.
@@ -35,6 +37,18 @@ pub enum Family {
     Seams,
     /// Fast, at a thin wall.
     Speed,
+    /// Between two features nearer to each other than the ball is wide.
+    Wedge,
+    /// Slowly off the edge of a block.
+    RollOver,
+    /// Over small steps of a floor.
+    Step,
+    /// Over slits in a floor.
+    Slit,
+    /// Around the end of a thin wall.
+    FreeEnd,
+    /// In a corridor as wide as the ball, and at one that is too narrow.
+    Narrow,
     /// A random maze with random tilts.
     Maze,
     /// A level of the game.
@@ -45,7 +59,7 @@ pub enum Family {
 
 impl Family {
     /// In the order of the report.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 17] = [
         Self::Tilt,
         Self::Bounce,
         Self::Drop,
@@ -54,6 +68,12 @@ impl Family {
         Self::Slide,
         Self::Seams,
         Self::Speed,
+        Self::Wedge,
+        Self::RollOver,
+        Self::Step,
+        Self::Slit,
+        Self::FreeEnd,
+        Self::Narrow,
         Self::Maze,
         Self::Level,
         Self::Own,
@@ -70,6 +90,12 @@ impl Family {
             Self::Slide => "slide",
             Self::Seams => "seams",
             Self::Speed => "speed",
+            Self::Wedge => "wedge",
+            Self::RollOver => "roll-over",
+            Self::Step => "step",
+            Self::Slit => "slit",
+            Self::FreeEnd => "free-end",
+            Self::Narrow => "narrow",
             Self::Maze => "maze",
             Self::Level => "level",
             Self::Own => "own",
@@ -111,6 +137,8 @@ pub struct Scene {
     pub ticks_s: Vec<f64>,
     /// What the ball does by formula.
     pub truth: Option<Motion>,
+    /// Where the ball lies at rest in the end (units), if that is known.
+    pub rest: Option<Vector2<f64>>,
 }
 
 /// Why a scene cannot be set up.
@@ -206,16 +234,14 @@ mod tests {
             assert!(names.insert(scene.name.clone()), "{} twice", scene.name);
             assert!(!scene.about.is_empty() && !scene.ticks_s.is_empty() && 0 < stage.n_ticks(0.03));
         }
-        assert!(140 < names.len());
+        assert!(190 < names.len());
     }
 
     #[test]
     fn a_ball_in_a_wall_is_refused() {
         let mut scene = catalogue().swap_remove(0);
-        scene.walls = Walls::Rectangles(vec![Bounds {
-            low: nalgebra::Vector2::new(-9.0, -9.0),
-            high: nalgebra::Vector2::new(9.0, 9.0),
-        }]);
+        scene.walls =
+            Walls::Rectangles(vec![Bounds { low: Vector2::new(-9.0, -9.0), high: Vector2::new(9.0, 9.0) }]);
         assert!(matches!(scene.set_up(), Err(SceneError::InWall { .. })));
     }
 }
