@@ -1,0 +1,11 @@
+//! The exact engine against a reference that shares nothing with it: brute force, in numbers of 200 bits.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use any function")]
+
+#[path = "reference/chains.rs"]
+mod chains;
+#[allow(dead_code, reason = "other tests use the rest of it")]
+mod irregular;
+mod noise;
+#[path = "reference/mod.rs"]
+mod reference_model;
