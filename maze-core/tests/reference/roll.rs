@@ -54,7 +54,8 @@ impl Reference<'_> {
             (from, before) = (to, after);
         }
         self.put(point, &series, &last);
-        last * &series.step_s
+        // Not a product: a rounding of the time that is left would be another step.
+        if *left_s < series.step_s { left_s.clone() } else { series.step_s }
     }
 
     fn put(&mut self, point: &Pair, series: &Series, at: &Big) {

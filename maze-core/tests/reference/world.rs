@@ -11,7 +11,7 @@ const ZERO: f64 = 1.0e-25;
 /// Two contacts this close (radii) hold a ball that bounces no more.
 const NEAR: f64 = 1.0e-10;
 /// Events of one call at most: a test that needs more has a fault.
-const MAX_EVENTS: u32 = 200_000;
+const MAX_EVENTS: u32 = 2_000;
 
 /// A wall face.
 #[derive(Clone)]
