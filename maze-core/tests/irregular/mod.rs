@@ -84,8 +84,7 @@ pub(crate) fn block([x0, x1]: [f64; 2], [y0, y1]: [f64; 2]) -> Vec<Plane> {
 
 /// A wall without thickness across an axis: both of its sides.
 fn sheet(axis: usize, offset: f64, [start, end]: [f64; 2]) -> Vec<Plane> {
-    let sides =
-        if axis == 0 { [Facing::PlusX, Facing::MinusX] } else { [Facing::PlusY, Facing::MinusY] };
+    let sides = if axis == 0 { [Facing::PlusX, Facing::MinusX] } else { [Facing::PlusY, Facing::MinusY] };
     if start < end { sides.map(|facing| Plane { facing, offset, start, end }).into() } else { Vec::new() }
 }
 
@@ -131,7 +130,8 @@ impl Builder {
 
     /// How far a gap differs from the ball's diameter.
     fn misfit(&mut self) -> f64 {
-        let size = self.draw.pick(&[0.0, 1.0e-16, 1.0e-14, 1.0e-12, 1.0e-10, 1.0e-9, 1.0e-6, 1.0e-3, 0.1, 0.6]);
+        let size =
+            self.draw.pick(&[0.0, 1.0e-16, 1.0e-14, 1.0e-12, 1.0e-10, 1.0e-9, 1.0e-6, 1.0e-3, 0.1, 0.6]);
         let size = size * self.radius;
         if self.draw.chance(2.0) { size } else { -size }
     }
@@ -310,7 +310,8 @@ impl Scene {
                 }
                 Pull::Turns => {
                     let first = if n == 0 { noise.vector() * strength } else { pull };
-                    pull = Vector2::new(0.995 * first.x - 0.0998 * first.y, 0.0998 * first.x + 0.995 * first.y);
+                    pull =
+                        Vector2::new(0.995 * first.x - 0.0998 * first.y, 0.0998 * first.x + 0.995 * first.y);
                 }
                 Pull::Axes(held) if is_new(held) => {
                     let size = noise.next() * strength;

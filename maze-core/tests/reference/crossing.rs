@@ -3,8 +3,8 @@
 use super::big::{Big, big};
 use std::cmp::Ordering;
 
-/// Halvings of the time at most: 1e-45 of it.
-const HALVINGS: u32 = 150;
+/// Halvings of the time at most: 2e-36 of it.
+const HALVINGS: u32 = 118;
 
 /// The first time in `0..=horizon` at which a polynomial (constant term first) that begins above zero falls below it. One that
 /// touches zero and rises again does not.

@@ -1,4 +1,4 @@
-//! The motion of a circle among wall faces, from mechanics and by brute force, in numbers of 200 bits.
+//! The motion of a circle among wall faces, from mechanics and by brute force, in numbers of 192 bits.
 
 pub(crate) mod big;
 mod crossing;

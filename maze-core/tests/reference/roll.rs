@@ -7,8 +7,8 @@ use std::cmp::Ordering;
 
 /// Parts of a step between which the signs of all conditions are compared.
 const SAMPLES: u32 = 4;
-/// Halvings of a part: 1e-39 of a step.
-const HALVINGS: u32 = 130;
+/// Halvings of a part: 1e-33 of a step.
+const HALVINGS: u32 = 110;
 
 /// What ends a roll.
 #[derive(Clone, Copy)]
@@ -37,9 +37,10 @@ impl Reference<'_> {
         for _ in 0..SAMPLES {
             let to = &from + &part;
             let after: Vec<Big> = ends.iter().map(|end| self.margin(*end, point, &series, &to)).collect();
-            let crossed = ends.iter().zip(before.iter().zip(&after)).filter(|(_, (before, after))| {
-                -&world.zero <= **before && **after < -&world.zero
-            });
+            let crossed = ends
+                .iter()
+                .zip(before.iter().zip(&after))
+                .filter(|(_, (before, after))| -&world.zero <= **before && **after < -&world.zero);
             let times = crossed.filter_map(|(end, _)| {
                 let at = self.bisect(*end, point, &series, [&from, &to]);
                 self.is_met(*end, point, &series, &at).then_some((*end, at))
@@ -86,15 +87,22 @@ impl Reference<'_> {
     /// Everything that can end a roll around a point.
     fn ends(&self, index: usize) -> Vec<End> {
         let point = &self.world.points[index];
+        // The centre moves by a diameter at most; its contact lies a radius further.
+        let reach = &(&self.world.r * big(3.5));
         let mut ends = vec![End::LiftOff];
         for (n, face) in self.world.faces.iter().enumerate() {
             let which = face.ends.iter().position(|end| *end == point[1 - face.axis]);
             match which.filter(|_| face.offset == point[face.axis]) {
                 Some(which) => ends.push(End::Onto(n, which)),
-                None => ends.push(End::Touch(Feature::Face(n))),
+                None if face.gap(&self.p, &self.world.r) < *reach => ends.push(End::Touch(Feature::Face(n))),
+                None => {}
             }
         }
-        let others = (0..self.world.points.len()).filter(|other| *other != index);
+        let is_near = |other: &usize| {
+            let from = minus(&self.p, &self.world.points[*other]);
+            *other != index && from[0].abs() < *reach && from[1].abs() < *reach
+        };
+        let others = (0..self.world.points.len()).filter(is_near);
         ends.extend(others.map(|other| End::Touch(Feature::Point(other))));
         ends
     }

@@ -1,6 +1,6 @@
 //! Motion on a parabola: flight, and sliding along a face.
 
-use super::big::{Big, Pair, big, dot, minus, plus};
+use super::big::{Big, Pair, big, dot, length, minus, plus};
 use super::crossing;
 use super::world::{Face, Feature, Reference};
 
@@ -26,8 +26,7 @@ impl Reference<'_> {
         a[axis] = big(0.0);
         let (p, v) = (&self.p[along], &self.v[along]);
         let low = crossing::parabola(&(p - &face.ends[0]), v, &a[along], &self.world.zero);
-        let high =
-            crossing::parabola(&(&face.ends[1] - p), &-v, &-&a[along], &self.world.zero);
+        let high = crossing::parabola(&(&face.ends[1] - p), &-v, &-&a[along], &self.world.zero);
         let (mut time_s, mut end) = (left_s.clone(), None);
         for (found_s, at) in [(low, &face.ends[0]), (high, &face.ends[1])] {
             if let Some(found_s) = found_s.filter(|found_s| *found_s < time_s) {
@@ -72,9 +71,18 @@ impl Reference<'_> {
         let is_coplanar = |face: &Face| {
             ground.is_some_and(|ground| face.axis == ground.axis && face.offset == ground.offset)
         };
+        // A part in a million more than the ball can move in a time.
+        let reach = |time_s: &Big| {
+            let time_s = time_s.f64();
+            1.000_001 * (length(&self.v) + length(a) * time_s / 2.0) * time_s + 1.0e-6 * world.r.f64()
+        };
         for (index, face) in world.faces.iter().enumerate().filter(|(_, face)| !is_coplanar(face)) {
+            let gap = face.gap(&self.p, &world.r);
+            if reach(&horizon) < gap.f64().abs() {
+                continue;
+            }
             let (v, a_n) = (&face.sign * &self.v[face.axis], &face.sign * &a[face.axis]);
-            let found_s = crossing::parabola(&face.gap(&self.p, &world.r), &v, &a_n, &world.zero);
+            let found_s = crossing::parabola(&gap, &v, &a_n, &world.zero);
             let Some(found_s) = found_s.filter(|found_s| *found_s < horizon) else { continue };
             let at = plus(&self.p, &plus(&self.v, a, &found_s.clone().half()), &found_s);
             if face.spans(&at, &world.zero) {
@@ -82,7 +90,8 @@ impl Reference<'_> {
             }
         }
         for (index, point) in world.points.iter().enumerate() {
-            if ground.is_some_and(|ground| point[ground.axis] == ground.offset) {
+            let is_far = reach(&horizon) + world.r.f64() < length(&minus(&self.p, point));
+            if is_far || ground.is_some_and(|ground| point[ground.axis] == ground.offset) {
                 continue;
             }
             if let Some(found_s) = crossing::quartic(&self.distance(point, a), &horizon) {

@@ -1,17 +1,17 @@
 //! What the reference knows, and what it does next.
 
-use super::big::{Big, Pair, big, dot, minus, pair, plus};
+use super::big::{Big, Pair, big, dot, length, minus, pair, plus};
 use maze_core::{Ball, BallSpec, Plane};
 use std::cmp::Ordering;
 
 /// Rise (radii) below which a bounce is none: far below what is tested, for which it is about 3e-9.
 const REST: f64 = 1.0e-14;
-/// Lengths, speeds and accelerations below this are 0 (units): far above 200 bits and the truncated series.
+/// Lengths, speeds and accelerations below this are 0 (units): far above 192 bits and the truncated series.
 const ZERO: f64 = 1.0e-25;
 /// Two contacts this close (radii) hold a ball that bounces no more.
 const NEAR: f64 = 1.0e-10;
 /// Events of one call at most: a test that needs more has a fault.
-const MAX_EVENTS: u32 = 2_000;
+const MAX_EVENTS: u32 = 20_000;
 
 /// A wall face.
 #[derive(Clone)]
@@ -213,6 +213,10 @@ impl<'a> Reference<'a> {
         }
         for (index, point) in world.points.iter().enumerate() {
             let from = minus(&self.p, point);
+            // Most are far away; the root is for those that are not.
+            if 1.0e-6 * world.r.f64() < (length(&from) - world.r.f64()).abs() {
+                continue;
+            }
             let gap = dot(&from, &from).sqrt() - &world.r;
             let contact = self.contact(Feature::Point(index));
             if gap.abs() < *within && is_new(&contacts, &contact.n) {
@@ -241,8 +245,7 @@ impl<'a> Reference<'a> {
         if let Some(hit) = touched.iter().find(|contact| dot(&self.v, &contact.n) < -&world.zero) {
             return Mode::Hit(hit.feature);
         }
-        let is_active =
-            |c: &&Contact| world.is_zero(&dot(&self.v, &c.n)) && self.press(c) < -&world.zero;
+        let is_active = |c: &&Contact| world.is_zero(&dot(&self.v, &c.n)) && self.press(c) < -&world.zero;
         let active: Vec<_> = touched.iter().filter(is_active).collect();
         let Some(first) = active.first() else { return Mode::Flight };
         if !world.is_zero(&dot(&self.v, &self.v).sqrt()) {
@@ -285,7 +288,13 @@ impl<'a> Reference<'a> {
         self.v = plus(&self.v, &contact.n, &speed);
         let press = self.press(&contact).f64();
         let height = rebound.f64().powi(2) / (-2.0 * press * self.world.r.f64());
-        let rise = if rebound.sign() == Ordering::Equal { 0.0 } else if press < 0.0 { height } else { f64::INFINITY };
+        let rise = if rebound.sign() == Ordering::Equal {
+            0.0
+        } else if press < 0.0 {
+            height
+        } else {
+            f64::INFINITY
+        };
         self.hits.push(Hit { feature, time_s: self.time_s.clone(), rise });
         if !self.is_low(&contact, &rebound) {
             self.v = plus(&self.v, &contact.n, &rebound);
@@ -294,9 +303,9 @@ impl<'a> Reference<'a> {
         self.n_rests += 1;
         // The other side of a wedge: held by both when what is left does not rise from it either.
         let others = self.touched(&(big(NEAR) * &self.world.r));
-        self.is_at_rest = others.iter().any(|other| {
-            self.is_held(&contact.n, &other.n) && self.is_low(other, &dot(&self.v, &other.n))
-        });
+        self.is_at_rest = others
+            .iter()
+            .any(|other| self.is_held(&contact.n, &other.n) && self.is_low(other, &dot(&self.v, &other.n)));
         if self.is_at_rest {
             self.v = pair([0.0; 2]);
         }
