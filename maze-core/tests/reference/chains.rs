@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 /// A start that differs by this part shows how errors grow: 2^10 roundings.
 const NUDGE: f64 = 1.0 / (1_u64 << 42) as f64;
-/// Roundings (of the largest coordinate and of the largest speed) that the engine may make before they are multiplied.
-const ROUNDINGS: f64 = 8.0;
+/// Roundings (of the largest coordinate and of the largest speed) that the engine may make before they are multiplied, over all hits.
+const ROUNDINGS: f64 = 32.0;
 /// Largest error of a position (units) with which a comparison still says something.
 const WORTH: f64 = 1.0e-9;
 /// A bounce that rises less (radii) may be none for the engine, whose bound is about 3e-9.
@@ -137,20 +137,20 @@ impl Case {
 #[test]
 fn a_flight_and_its_first_hit_are_those_of_the_reference() {
     let mut count = Count::default();
-    for seed in 0..1500 {
+    for seed in 0..1200 {
         if let Some(case) = Case::new(seed, 2.0) {
             case.compare(seed, 1, 1, &mut count);
         }
     }
     println!("{count:?}");
-    assert!(1000 < count.compared && 100 < count.corners, "{count:?}");
+    assert!(900 < count.compared && 100 < count.corners, "{count:?}");
     assert!(20 * count.ambiguous < count.compared, "{count:?}");
 }
 
 #[test]
 fn three_to_five_hits_are_those_of_the_reference() {
     let mut count = Count::default();
-    for seed in 10_000..10_500 {
+    for seed in 10_000..10_300 {
         if let Some(case) = Case::new(seed, 8.0) {
             // In one tick and in several.
             let n_ticks = if seed % 2 == 0 { 1 } else { 7 };
@@ -158,6 +158,6 @@ fn three_to_five_hits_are_those_of_the_reference() {
         }
     }
     println!("{count:?}");
-    assert!(150 < count.compared && 50 < count.corners, "{count:?}");
+    assert!(100 < count.compared && 30 < count.corners, "{count:?}");
     assert!(10 * count.ambiguous < count.compared, "{count:?}");
 }
