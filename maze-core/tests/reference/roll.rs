@@ -33,10 +33,14 @@ impl Reference<'_> {
         let ends = self.ends(index);
         let part = &last / big(f64::from(SAMPLES));
         let mut from = big(0.0);
-        let mut before: Vec<Big> = ends.iter().map(|end| self.margin(*end, point, &series, &from)).collect();
+        let margins = |at: &Big| -> Vec<Big> {
+            let state = series.at(at);
+            ends.iter().map(|end| self.margin(*end, point, &state)).collect()
+        };
+        let mut before = margins(&from);
         for _ in 0..SAMPLES {
             let to = &from + &part;
-            let after: Vec<Big> = ends.iter().map(|end| self.margin(*end, point, &series, &to)).collect();
+            let after = margins(&to);
             let crossed = ends
                 .iter()
                 .zip(before.iter().zip(&after))
@@ -108,18 +112,17 @@ impl Reference<'_> {
     }
 
     /// Positive or 0 while a condition does not hold, negative where it does.
-    fn margin(&self, end: End, point: &Pair, series: &Series, at: &Big) -> Big {
+    fn margin(&self, end: End, point: &Pair, (n, turn): &(Pair, Big)) -> Big {
         let world = self.world;
-        let (n, turn) = series.at(at);
         match end {
-            End::LiftOff => -(dot(&self.a, &n) + &world.r * &turn * &turn),
+            End::LiftOff => -(dot(&self.a, n) + &world.r * turn * turn),
             End::Onto(face, which) => {
                 let along = &n[1 - world.faces[face].axis];
                 if which == 0 { -along } else { along.clone() }
             }
-            End::Touch(Feature::Face(face)) => world.faces[face].gap(&plus(point, &n, &world.r), &world.r),
+            End::Touch(Feature::Face(face)) => world.faces[face].gap(&plus(point, n, &world.r), &world.r),
             End::Touch(Feature::Point(other)) => {
-                let from = minus(&plus(point, &n, &world.r), &world.points[other]);
+                let from = minus(&plus(point, n, &world.r), &world.points[other]);
                 dot(&from, &from) - &world.r * &world.r
             }
         }
@@ -142,7 +145,7 @@ impl Reference<'_> {
         let (mut low, mut high) = (from.clone(), to.clone());
         for _ in 0..HALVINGS {
             let middle = (&low + &high).half();
-            let is_below = self.margin(end, point, series, &middle).sign() == Ordering::Less;
+            let is_below = self.margin(end, point, &series.at(&middle)).sign() == Ordering::Less;
             *(if is_below { &mut high } else { &mut low }) = middle;
         }
         high
