@@ -43,16 +43,21 @@ fn a_wedge_of_a_millionth_drops_no_time() {
 }
 
 #[test]
-fn a_gap_narrower_by_a_part_in_1e12_is_not_entered() {
-    // Straight down its middle, and after bounces from side to side.
+fn a_gap_narrower_by_a_part_in_1e12_is_not_passed_down_its_middle() {
     for r in RADII {
-        let mut in_wedge = Wedge::narrow(r, 1.0e-12).engine(r, 0.8);
-        for _ in 0..100 {
-            in_wedge.tick([0.0, -4.0].into()).unwrap();
-        }
-        let head_on = after(&slit(r * (1.0 - 1.0e-12)), r, 0.8, 0.0, 3.0);
-        for (name, ball) in [("aside", in_wedge.ball()), ("head-on", head_on)] {
-            assert!(0.0 < ball.position.y, "{name}, r {r}: {ball:?}");
+        let ball = after(&slit(r * (1.0 - 1.0e-12)), r, 0.8, 0.0, 3.0);
+        assert!(0.0 < ball.position.y, "r {r}: {ball:?}");
+    }
+}
+
+#[test]
+fn a_gap_narrower_by_a_part_in_1e12_is_not_passed_after_bounces_from_side_to_side() {
+    for r in RADII {
+        let wedge = Wedge::narrow(r, 1.0e-12);
+        let mut engine = wedge.engine(r, 0.8);
+        for n in 0..100 {
+            engine.tick(wedge.pull.into()).unwrap();
+            assert!(0.0 < engine.ball().position.y, "r {r}, tick {n}: {:?}", engine.ball());
         }
     }
 }

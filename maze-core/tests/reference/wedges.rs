@@ -3,6 +3,7 @@
 use crate::reference_model::{Reference, World, big::big};
 use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes};
 use nalgebra::Vector2;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Walls, where a ball begins at rest, what presses it into the wedge, and where it must come to rest.
@@ -128,7 +129,7 @@ fn a_wedge_holds_the_ball_at_the_place_of_the_closed_form() {
             Wedge::points(r, angle).holds(&format!("two points, angle {angle}"), r, e, angle);
             Wedge::floor_and_corner(r, angle).holds(&format!("foot of a step, angle {angle}"), r, e, angle);
         }
-        for angle in [1.6, 2.0, 2.5, 3.0, 3.1, 3.14, 3.1415] {
+        for angle in [1.6, 2.0, 2.5, 3.0, 3.1, PI - 1.0e-3, PI - 1.0e-4] {
             Wedge::floor_and_corner(r, angle).holds(&format!("corner above, angle {angle}"), r, e, 1.0);
         }
         Wedge::faces(r).holds("two faces", r, e, 1.0);
@@ -149,13 +150,13 @@ fn a_gap_narrower_than_the_ball_holds_it_at_the_place_of_the_closed_form() {
 
 #[test]
 fn rocking_in_a_shallow_wedge_is_that_of_the_reference() {
-    // Here rest is far away: each pass keeps 1 - angle² / 2 of the speed. The first 40 falls by a radius.
+    // Here rest is far away: each pass keeps 1 - angle² / 2 of the speed. The first 20 falls by a radius.
     for (r, angle) in RADII.into_iter().flat_map(|r| [0.3, 0.1, 1.0e-2, 1.0e-3].map(|angle| (r, angle))) {
         let wedge = Wedge::points(r, angle);
         let mut engine = wedge.engine(r, 0.0);
         let world = World::new(&wedge.planes, engine.spec());
         let mut reference = Reference::new(&world, engine.ball(), wedge.pull);
-        let n_ticks = (40.0 * (r / PULL).sqrt() / TICK_S) as u32 + 1;
+        let n_ticks = (20.0 * (r / PULL).sqrt() / TICK_S) as u32 + 1;
         for n in 1..=n_ticks {
             let tick = engine.tick(wedge.pull.into()).unwrap();
             assert_eq!((tick.dropped_s, tick.corrected_overlap), (0.0, 0.0));
