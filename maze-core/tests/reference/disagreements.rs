@@ -2,6 +2,7 @@
 
 use crate::gaps::after;
 use crate::reference_model::{Reference, World, big::big};
+use crate::rolls::{BALLS, turning_courses};
 use crate::wedges::{RADII, Wedge, face, slit};
 use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Radius, SortedPlanes};
 use std::sync::Arc;
@@ -24,6 +25,15 @@ fn a_roll_that_turns_back_within_a_tick_keeps_its_time() {
         let apart = (ball.velocity - truth.velocity).norm();
         // 1e-15 until it turns.
         assert!(apart < 1.0e-12, "tick {n}: {apart} units/s apart, {ball:?} instead of {truth:?}");
+    }
+}
+
+#[test]
+fn courses_on_which_a_roll_turns_back_are_those_of_the_reference() {
+    for [r, strength, rolling] in BALLS {
+        for course in turning_courses() {
+            course.compare([r, strength, rolling, 0.0]);
+        }
     }
 }
 

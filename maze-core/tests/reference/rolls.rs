@@ -5,16 +5,15 @@ use crate::wedges::{face, slit};
 use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes};
 use std::sync::Arc;
 
-/// Of a roll, and of what follows it without a hit (radii).
-const BOUND: f64 = 1.0e-9;
-/// What a rest may change (radii): the engine lets what rises less than about 3e-9 rest, several times on a course.
-const REST: f64 = 1.0e-8;
+/// Largest distance between engine and reference (radii): a hundred times what was measured, and less than the 3e-9 that a rest
+/// may change, which on these courses it does not.
+const BOUND: f64 = 1.0e-10;
 /// Hits after which a comparison says nothing any more.
 const MAX_HITS: usize = 20;
 const TICKS_S: [f64; 4] = [0.001, 0.0137, 0.03, 0.1];
 
 /// A start on a face, in radii; velocities in the speed that a fall by a radius gives.
-struct Course {
+pub(crate) struct Course {
     name: &'static str,
     planes: Vec<Plane>,
     start: [f64; 2],
@@ -23,23 +22,35 @@ struct Course {
     pulls: [[f64; 2]; 2],
 }
 
+/// The upper and the right side of a block.
+fn edge() -> Vec<Plane> {
+    vec![face(Facing::PlusY, 0.0, -20.0, 0.0), face(Facing::PlusX, 0.0, -20.0, 0.0)]
+}
+
+/// A wall without thickness.
+fn sheet() -> Vec<Plane> {
+    vec![face(Facing::PlusY, 0.0, -20.0, 0.0), face(Facing::MinusY, 0.0, -20.0, 0.0)]
+}
+
+/// A floor with a step up.
+fn step(height: f64) -> Vec<Plane> {
+    vec![
+        face(Facing::PlusY, 0.0, -20.0, 0.0),
+        face(Facing::MinusX, 0.0, 0.0, height),
+        face(Facing::PlusY, height, 0.0, 20.0),
+    ]
+}
+
+/// A floor with a step down.
+fn down(height: f64) -> Vec<Plane> {
+    vec![
+        face(Facing::PlusY, 0.0, -20.0, 0.0),
+        face(Facing::PlusX, 0.0, -height, 0.0),
+        face(Facing::PlusY, -height, 0.0, 20.0),
+    ]
+}
+
 fn courses() -> Vec<Course> {
-    let edge = || vec![face(Facing::PlusY, 0.0, -20.0, 0.0), face(Facing::PlusX, 0.0, -20.0, 0.0)];
-    let sheet = || vec![face(Facing::PlusY, 0.0, -20.0, 0.0), face(Facing::MinusY, 0.0, -20.0, 0.0)];
-    let step = |height: f64| {
-        vec![
-            face(Facing::PlusY, 0.0, -20.0, 0.0),
-            face(Facing::MinusX, 0.0, 0.0, height),
-            face(Facing::PlusY, height, 0.0, 20.0),
-        ]
-    };
-    let down = |height: f64| {
-        vec![
-            face(Facing::PlusY, 0.0, -20.0, 0.0),
-            face(Facing::PlusX, 0.0, -height, 0.0),
-            face(Facing::PlusY, -height, 0.0, 20.0),
-        ]
-    };
     let course = |name, planes, start, speed, pulls| Course { name, planes, start, speed, pulls };
     let still = |pull| [pull, pull];
     vec![
@@ -65,19 +76,28 @@ fn courses() -> Vec<Course> {
         course("up a step", step(0.3), [-2.0, 1.0], [1.9, 0.0], still([0.05, -1.0])),
         course("up a low step", step(1.0e-3), [-2.0, 1.0], [0.3, 0.0], still([0.05, -1.0])),
         course("pulled up a step", step(0.1), [-0.44, 1.0], [0.0, 0.0], still([0.9, -0.3])),
-        course("not up a step", step(0.5), [-2.0, 1.0], [0.5, 0.0], still([0.05, -1.0])),
         course("over a slit", slit(0.05), [-1.0, 1.0], [0.5, 0.0], still([0.05, -1.0])),
         course("over a wide slit", slit(0.3), [-1.0, 1.0], [0.9, 0.0], still([0.05, -1.0])),
-        course("into a slit", slit(0.6), [-1.0, 1.0], [0.3, 0.0], still([0.05, -1.0])),
         course("down a step", down(0.1), [-1.0, 1.0], [0.1, 0.0], still([0.05, -1.0])),
         course("down a low step", down(1.0e-4), [-1.0, 1.0], [0.3, 0.0], still([0.0, -1.0])),
         course("down a high step", down(1.5), [-1.0, 1.0], [0.3, 0.0], still([0.0, -1.0])),
     ]
 }
 
+/// Courses on which the ball turns back while it rolls around a point.
+pub(crate) fn turning_courses() -> [Course; 3] {
+    let course =
+        |name, planes, start, speed, pull| Course { name, planes, start, speed, pulls: [pull, pull] };
+    [
+        course("free end and back", sheet(), [-0.5, 1.0], [0.9, 0.0], [-0.9, -0.3]),
+        course("not up a step", step(0.5), [-2.0, 1.0], [0.5, 0.0], [0.05, -1.0]),
+        course("into a slit", slit(0.6), [-1.0, 1.0], [0.3, 0.0], [0.05, -1.0]),
+    ]
+}
+
 impl Course {
     /// The largest distance (radii) between engine and reference, at quarters of both stretches and with each tick length.
-    fn compare(&self, [r, strength, rolling, e]: [f64; 4]) -> f64 {
+    pub(crate) fn compare(&self, [r, strength, rolling, e]: [f64; 4]) -> f64 {
         let mut worst = 0.0_f64;
         let scaled = |plane: &Plane| Plane {
             offset: plane.offset * r,
@@ -124,8 +144,11 @@ impl Course {
                     if MAX_HITS < reference.hits.len() {
                         continue;
                     }
-                    let bound = if reference.hits.is_empty() { BOUND } else { BOUND + REST } * r;
-                    assert!(apart < bound, "{case}: {} r apart, {ball:?} instead of {truth:?}", apart / r);
+                    assert!(
+                        apart < BOUND * r,
+                        "{case}: {} r apart, {ball:?} instead of {truth:?}",
+                        apart / r
+                    );
                     worst = worst.max(apart / r);
                 }
             }
@@ -134,15 +157,17 @@ impl Course {
     }
 }
 
+/// Radius, acceleration and rolling factor.
+pub(crate) const BALLS: [[f64; 3]; 4] = [
+    [0.35, 4.0, 1.0],
+    [0.35, 4.0, BallSpec::ROLLING_SPHERE],
+    [0.25, 300.0, 1.0],
+    [1.0e-3, 300.0, BallSpec::ROLLING_SPHERE],
+];
+
 #[test]
 fn rolls_over_edges_free_ends_steps_and_slits_are_those_of_the_reference() {
-    let balls = [
-        (0.35, 4.0, 1.0),
-        (0.35, 4.0, BallSpec::ROLLING_SPHERE),
-        (0.25, 300.0, 1.0),
-        (1.0e-3, 300.0, BallSpec::ROLLING_SPHERE),
-    ];
-    for (r, strength, rolling) in balls {
+    for [r, strength, rolling] in BALLS {
         for e in [0.0, 0.8] {
             let worst = courses().into_iter().map(|course| course.compare([r, strength, rolling, e]));
             println!(
