@@ -104,6 +104,8 @@ pub(crate) struct Hit {
     pub(crate) time_s: Big,
     /// How high the ball would rise from it (radii): 0 without a rebound, infinite where nothing presses.
     pub(crate) rise: f64,
+    /// Sine of the angle between the path and what is hit.
+    pub(crate) sine: f64,
 }
 
 /// How the ball moves until something happens.
@@ -285,6 +287,7 @@ impl<'a> Reference<'a> {
         let contact = self.contact(feature);
         let speed = -dot(&self.v, &contact.n);
         let rebound = &self.world.e * &speed;
+        let sine = speed.f64() / length(&self.v);
         self.v = plus(&self.v, &contact.n, &speed);
         let press = self.press(&contact).f64();
         let height = rebound.f64().powi(2) / (-2.0 * press * self.world.r.f64());
@@ -295,7 +298,7 @@ impl<'a> Reference<'a> {
         } else {
             f64::INFINITY
         };
-        self.hits.push(Hit { feature, time_s: self.time_s.clone(), rise });
+        self.hits.push(Hit { feature, time_s: self.time_s.clone(), rise, sine });
         if !self.is_low(&contact, &rebound) {
             self.v = plus(&self.v, &contact.n, &rebound);
             return;
