@@ -20,16 +20,21 @@ fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
 }
 
 #[test]
-fn of_two_touches_at_the_very_start_the_one_of_lower_rank_is_found() {
+fn of_two_touches_at_the_very_start_the_one_that_is_approached_faster_is_found() {
     // In a corner, moving onto one face and pulled onto the other.
     let planes = [plane(Facing::PlusX, 0.0, 0.0, 5.0), plane(Facing::PlusY, 0.0, 0.0, 5.0)];
     let planes = SortedPlanes::new(planes).unwrap();
-    for (velocity, acceleration) in [([0.0, -1.0], [-1.0, 0.0]), ([-1.0, 0.0], [0.0, -1.0])] {
+    for (velocity, acceleration, facing) in [
+        ([0.0, -1.0], [-1.0, 0.0], Facing::PlusY),
+        ([-1.0, 0.0], [0.0, -1.0], Facing::PlusX),
+        // And of two that are approached alike the first in the order of facings.
+        ([-1.0, -1.0], [0.0, 0.0], Facing::PlusX),
+    ] {
         let [velocity, acceleration] = [velocity, acceleration].map(|[x, y]| Vector2::new(x, y));
         let path = Path { position: Vector2::new(0.35, 0.35), velocity, acceleration };
         let first = impact::first(&planes, &path, 0.35, 0.03, None);
         assert_eq!(first, impact::first_scan(&planes, &path, 0.35, 0.03, None));
-        assert!(matches!(first.unwrap().touched, Feature::Face(face) if face.facing == Facing::PlusX));
+        assert!(matches!(first.unwrap().touched, Feature::Face(face) if face.facing == facing));
     }
 }
 
