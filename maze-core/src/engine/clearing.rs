@@ -55,9 +55,10 @@ impl Clearing {
         let ranks = [0, 1].map(|axis| planes.ranks(axis, [free.low[axis] - reach, free.high[axis] + reach]));
         for facing in Facing::ALL {
             let (across, along) = (facing.axis(), 1 - facing.axis());
+            let carrier = carriers[across].filter(|carrier| carrier.facing == facing);
             for row in planes.rows(facing, planes.rows_at(facing, &ranks[across])) {
                 for face in row.at(ranks[along].clone()) {
-                    if carriers[across] != Some(face.plane) {
+                    if carrier.is_none_or(|carrier| carrier != face.plane) {
                         free.stay_away(&face.plane, centre, reach)?;
                     }
                 }
@@ -153,8 +154,8 @@ impl Clearing {
         let to = from + (speed + pull * (time_s / 2.0)) * time_s;
         let end_speed = speed + pull * time_s;
         // Where it turns, it goes no farther than it would have gone at its first speed.
-        let farthest = if speed * end_speed < 0.0 { from + speed * time_s } else { to };
-        let stays = self.holds(axis, to) && self.holds(axis, farthest);
+        let stays = self.holds(axis, to)
+            && (0.0 <= speed * end_speed || self.holds(axis, from + speed * time_s));
         stays.then_some((to, end_speed))
     }
 }
