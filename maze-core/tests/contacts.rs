@@ -263,6 +263,21 @@ fn slits_in_a_floor_are_passed() {
 }
 
 #[test]
+fn a_ball_slower_than_the_rest_bound_passes_slits_and_steps_by_rounding() {
+    for width in [0.0, 1.0e-15, 1.0e-12, 1.0e-9, 1.0e-8] {
+        for height in [0.0, 1.0e-16, 1.0e-14, -1.0e-14, -1.0e-12] {
+            let mut planes = ground(0.0);
+            planes.extend(block([width, 99.0], [-2.0, height]));
+            // It starts at rest 5e-11 before the edge, and has 1e-6 units/s there.
+            let scene = Scene::new(planes, [-5.0e-11, R], [0.0, 0.0], [0.01, -4.0]);
+            let (ball, _) = scene.run(9.0);
+            let off = (ball.position.x - 0.01 * 81.0 / 2.0).abs();
+            assert!(off < 1.0e-4, "width {width:e}, height {height:e}: {ball:?}");
+        }
+    }
+}
+
+#[test]
 fn a_ball_that_does_not_get_over_a_free_end_slides_down_the_side_it_came_from() {
     for side in [-1.0, 1.0] {
         let wall = sheet(0, 0.0, -5.0, 0.0).to_vec();

@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 const AHEAD: f64 = 3.0;
 
 /// How far it may extend on the other side (radii), for a ball that turns.
-const BEHIND: f64 = 0.5;
+const BEHIND: f64 = 0.25;
 
 /// How far inside of the ends of a face that carries the ball a clearing ends (radii): large against rounding, so that the
 /// corner there is not touched.
@@ -57,6 +57,10 @@ impl Clearing {
             let (across, along) = (facing.axis(), 1 - facing.axis());
             let carrier = carriers[across].filter(|carrier| carrier.facing == facing);
             for row in planes.rows(facing, planes.rows_at(facing, &ranks[across])) {
+                // Others have made the box smaller meanwhile.
+                if free.high[across] <= row.offset() - reach || row.offset() + reach <= free.low[across] {
+                    continue;
+                }
                 for face in row.at(ranks[along].clone()) {
                     if carrier.is_none_or(|carrier| carrier != face.plane) {
                         free.stay_away(&face.plane, centre, reach)?;
@@ -154,8 +158,8 @@ impl Clearing {
         let to = from + (speed + pull * (time_s / 2.0)) * time_s;
         let end_speed = speed + pull * time_s;
         // Where it turns, it goes no farther than it would have gone at its first speed.
-        let stays = self.holds(axis, to)
-            && (0.0 <= speed * end_speed || self.holds(axis, from + speed * time_s));
+        let stays =
+            self.holds(axis, to) && (0.0 <= speed * end_speed || self.holds(axis, from + speed * time_s));
         stays.then_some((to, end_speed))
     }
 }
@@ -230,7 +234,7 @@ mod tests {
             &[None; 2],
         )
         .unwrap();
-        assert!((clearing.low - Vector2::new(0.375, 0.275)).amax() < 1.0e-6);
+        assert!((clearing.low - Vector2::new(0.4375, 0.3375)).amax() < 1.0e-6);
         assert!((clearing.high - Vector2::repeat(0.75)).amax() < 1.0e-6);
         // Carried by the floor it keeps its height and stays off the walls.
         let floor = planes.planes(Facing::PlusY).next();

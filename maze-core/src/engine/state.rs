@@ -97,7 +97,8 @@ pub(super) fn presses(acceleration: Vector2<f64>, one: Vector2<f64>, two: Vector
     let alone = [one, two].map(|normal| acceleration.dot(&normal) < 0.0);
     let cross = one.perp(&two);
     if cross.abs() < tolerance::PASSING {
-        return alone;
+        // Neighbours on a floor press alike: the later one supports the ball.
+        return [alone[0] && one.dot(&two) < 0.0, alone[1]];
     }
     let rounding = tolerance::CONE * acceleration.norm();
     let side = if cross < 0.0 { -1.0 } else { 1.0 };
@@ -134,6 +135,12 @@ mod tests {
         assert_eq!(held(1.0, -1.0), [left, right]);
         assert_eq!(held(1.1, -1.0), [right]);
         assert_eq!(held(-1.1, -1.0), [left]);
+    }
+
+    #[test]
+    fn of_neighbours_on_a_floor_the_later_one_supports_the_ball() {
+        let (one, two) = (contact(0.0, 1.0), contact(1.0e-8, 1.0));
+        assert_eq!(presses(Vector2::new(0.1, -1.0), one.normal, two.normal), [false, true]);
     }
 
     #[test]
