@@ -3,6 +3,7 @@
 //! Times are counted from the parabola's start and are bit for bit the same whichever way the planes are searched: every
 //! search hands the same numbers to the same functions.
 
+pub use crate::feature::Feature;
 use crate::plane::{Facing, Plane};
 use crate::roots::{bracketed_root, falls_through_zero, quadratic_roots};
 use crate::sorted_planes::{Face, SortedPlanes, WIDENED};
@@ -22,51 +23,6 @@ pub struct Path {
     pub velocity: Vector2<f64>,
     /// Throughout (units/s²).
     pub acceleration: Vector2<f64>,
-}
-
-/// A part of a wall that a circle can touch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Feature {
-    /// A face, within its extent.
-    Face(Plane),
-    /// The end of a face: the corner of a wall, or the free end of one without thickness.
-    Point(Vector2<f64>),
-}
-
-impl Feature {
-    /// The unit normal towards a circle's centre that touches it; `None` for a centre on the point itself.
-    pub fn normal_at(&self, centre: Vector2<f64>) -> Option<Vector2<f64>> {
-        match self {
-            Self::Face(plane) => Some(plane.facing.normal()),
-            Self::Point(point) => (centre - point).try_normalize(0.0),
-        }
-    }
-
-    /// The point of it that a circle there touches.
-    pub fn closest_point(&self, centre: Vector2<f64>) -> Vector2<f64> {
-        match self {
-            Self::Face(plane) => plane.facing.point(plane.offset, centre[1 - plane.facing.axis()]),
-            Self::Point(point) => *point,
-        }
-    }
-
-    /// The centre of the circle that touches it there, less what rounding left between or behind.
-    ///
-    /// On a face never inside by an ulp: else each point of a neighbour on the same line would be hit.
-    pub(crate) fn touching(&self, centre: Vector2<f64>, normal: Vector2<f64>, radius: f64) -> Vector2<f64> {
-        match self {
-            Self::Face(plane) => {
-                let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
-                let mut centre = centre;
-                centre[axis] = plane.offset + sign * radius;
-                if (centre[axis] - plane.offset) * sign < radius {
-                    centre[axis] = if sign < 0.0 { centre[axis].next_down() } else { centre[axis].next_up() };
-                }
-                centre
-            }
-            Self::Point(point) => point + normal * radius,
-        }
-    }
 }
 
 /// The first touch.

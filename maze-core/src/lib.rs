@@ -46,6 +46,7 @@ mod draft;
 pub mod engine;
 pub mod export;
 pub mod extrude;
+mod feature;
 mod frame;
 pub mod gravity;
 pub mod impact;

@@ -6,7 +6,10 @@ mod irregular;
 mod noise;
 
 use irregular::{Scene, depth};
-use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes, Tick};
+use maze_core::impact::Path;
+use maze_core::{
+    Ball, BallSpec, Continuous, Engine, Facing, Hit, Observer, Plane, Radius, SortedPlanes, Tick,
+};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -53,6 +56,61 @@ fn a_ball_is_never_in_a_wall_and_gains_no_energy() {
         }
     }
     assert!(100_000 < n_hits && 1000 < n_rests, "{n_hits} hits, {n_rests} rests: too few");
+}
+
+/// Follows the stretches of a tick and checks that each begins where the one before ended.
+struct Stretches {
+    at: Vector2<f64>,
+    passed_s: f64,
+    n_hits: u32,
+    largest_gap: f64,
+}
+
+impl Stretches {
+    fn add(&mut self, [from, to]: [Vector2<f64>; 2], duration_s: f64) {
+        self.largest_gap = self.largest_gap.max((from - self.at).amax());
+        self.at = to;
+        self.passed_s += duration_s;
+    }
+}
+
+impl Observer for Stretches {
+    fn flight(&mut self, path: &Path, duration_s: f64) {
+        self.add([path.position, path.at(duration_s)], duration_s);
+    }
+
+    fn roll(&mut self, arc: &maze_core::engine::Arc, duration_s: f64) {
+        self.add([arc.from, arc.to].map(|normal| arc.point + normal * arc.radius), duration_s);
+    }
+
+    fn hit(&mut self, hit: &Hit) {
+        self.largest_gap = self.largest_gap.max((hit.before.position - self.at).amax());
+        self.at = hit.after.position;
+        self.n_hits += 1;
+    }
+}
+
+#[test]
+fn an_observer_sees_the_whole_tick_and_changes_nothing() {
+    for seed in 5000..5200 {
+        let Some(scene) = Scene::new(seed) else { continue };
+        let (mut watched, mut alone) = (engine(&scene), engine(&scene));
+        for (n, pull) in scene.pulls(seed).take(300).enumerate() {
+            let start = watched.ball().position;
+            let mut stretches = Stretches { at: start, passed_s: 0.0, n_hits: 0, largest_gap: 0.0 };
+            let tick = watched.tick_observed(pull, &mut stretches).unwrap();
+            let about = format!("scene {seed}, tick {n}: {tick:?}");
+            assert_eq!((tick, stretches.n_hits), (alone.tick(pull).unwrap(), tick.n_hits), "{about}");
+            assert_eq!(watched.state(), alone.state(), "{about}");
+            let missing_s = scene.tick_s - tick.dropped_s - stretches.passed_s;
+            assert!(missing_s.abs() < 1.0e-12 * scene.tick_s, "{about}: {missing_s} s not shown");
+            // A ball is put onto a face that supports it, and onto what it hits, within rounding.
+            let rounding = 1.0e-11 * scene.spec.radius.units() + 1.0e-15 * start.amax();
+            let last = (watched.ball().position - stretches.at).amax();
+            let gap = stretches.largest_gap.max(last);
+            assert!(gap <= rounding, "{about}: a gap of {gap}");
+        }
+    }
 }
 
 /// A way to look at a scene that must not change the motion.

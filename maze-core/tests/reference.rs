@@ -5,8 +5,8 @@
 
 #[path = "reference/chains.rs"]
 mod chains;
-#[path = "reference/disagreements.rs"]
-mod disagreements;
+#[path = "reference/found.rs"]
+mod found;
 #[path = "reference/gaps.rs"]
 mod gaps;
 #[allow(dead_code, reason = "other tests use the rest of it")]

@@ -1,15 +1,15 @@
 //! The exact engine: within a tick the ball moves from event to event, in flight on a parabola, on a face along it, around a
 //! point on an arc, without substeps or penetration.
 
+mod guard;
+
 use super::clearing::Clearing;
 use super::collision::{self, Surface};
 use super::roll::{self, Pivot, tangent};
 use super::state::{BallState, Contact, Contacts, presses};
 use super::{Arc as RolledArc, Engine, Hit, Log, Observer, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
-use crate::contact;
 use crate::impact::{self, Feature, Path};
-use crate::plane::Plane;
 use crate::roots::falls_through_zero;
 use crate::sorted_planes::SortedPlanes;
 use crate::tolerance::{self, TANGENT};
@@ -24,9 +24,6 @@ pub const MAX_EVENTS: u32 = 4096;
 
 /// Longest tick (s).
 pub const MAX_TICK_S: f64 = 1000.0;
-
-/// Most walls a ball that starts inside of them is pushed out of, one after the other.
-const MAX_RECOVERIES: u32 = 16;
 
 /// A clearing is looked for when a tick leads less far than this (radii): a faster ball would soon leave it.
 const WORTHWHILE: f64 = 0.25;
@@ -327,7 +324,7 @@ impl Continuous {
         MAX_EVENTS
     }
 
-    /// Stays between two contacts.
+    /// Stays where it is.
     fn rest<O: Observer + ?Sized>(&mut self, left_s: f64, log: &mut Log<O>) -> f64 {
         self.ball.velocity = Vector2::zeros();
         let path =
@@ -342,48 +339,6 @@ impl Continuous {
         0.0 < self.spec.resistance
             && !self.contacts.iter().any(is_on_point)
             && self.spec.holds(self.ball.velocity, self.path(acceleration).acceleration, self.tick_s)
-    }
-
-    /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first; returns the deepest (units).
-    fn depenetrate(&mut self) -> f64 {
-        let mut deepest_of_all = 0.0;
-        for _ in 0..MAX_RECOVERIES {
-            let centre = self.ball.position;
-            let radius = self.radius();
-            let touch = tolerance::touch(radius, centre);
-            let deepest = self
-                .planes
-                .planes_within(centre, radius)
-                .filter_map(|plane| contact::find(centre, radius, &plane))
-                .filter(|contact| touch < contact.penetration)
-                .max_by(|a, b| a.penetration.total_cmp(&b.penetration));
-            let Some(contact) = deepest else { break };
-            let facing = contact.plane.facing;
-            let front = (centre[facing.axis()] - contact.plane.offset) * facing.sign();
-            // In front, away from the closest point; behind, through the face.
-            let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
-            self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
-            if deepest_of_all < contact.penetration {
-                deepest_of_all = contact.penetration;
-            }
-        }
-        deepest_of_all
-    }
-
-    /// Checks the state that is about to be returned by a plain query that knows nothing of contacts and events: a ball that
-    /// came from outside and is deeper in a wall than it may be is put outside, and that is reported.
-    fn guard<O: Observer + ?Sized>(&mut self, from: Vector2<f64>, log: &mut Log<O>) {
-        let (centre, radius) = (self.ball.position, self.radius());
-        // A face has no back: whoever comes from behind it passes.
-        let is_in_front = |centre: Vector2<f64>, plane: &Plane| {
-            0.0 <= (centre[plane.facing.axis()] - plane.offset) * plane.facing.sign()
-        };
-        let within = radius - tolerance::overlap(radius, centre);
-        let is_inside = |plane: &Plane| is_in_front(centre, plane) || is_in_front(from, plane);
-        if self.planes.any_within(centre, within, is_inside) {
-            log.tick.corrected_overlap = self.depenetrate();
-            self.contacts.clear();
-        }
     }
 
     /// A tick that is searched.
@@ -404,7 +359,7 @@ impl Continuous {
         }
         self.contacts.settle(acceleration);
         if self.is_held(acceleration) {
-            self.ball.velocity = Vector2::zeros();
+            self.rest(self.tick_s, &mut log);
             return Ok(log.tick);
         }
         let from = self.ball.position;
@@ -476,7 +431,7 @@ impl Engine for Continuous {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane::Facing;
+    use crate::plane::{Facing, Plane};
 
     #[test]
     fn most_ticks_of_a_rolling_ball_need_no_search() {

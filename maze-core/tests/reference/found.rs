@@ -1,4 +1,4 @@
-//! Where the engine differs from mechanics: each of these fails until the engine is right.
+//! What the reference has found in the engine: each failed once.
 
 use crate::gaps::after;
 use crate::reference_model::{Reference, World, big::big};
