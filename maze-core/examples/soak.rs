@@ -298,7 +298,7 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
     bar.finish_and_clear();
     println!("ticks               {} in {} scenes", totals.n_ticks, totals.n_scenes);
     println!(
-        "hits                {} ({} of corners, {} ended in rest); {} rolls",
+        "hits                {} ({} of corners, {} ended in rest); {} rolls in irregular scenes",
         totals.n_hits, totals.n_corner_hits, totals.n_rests, totals.n_rolls
     );
     println!("penetrations > {LIMIT:e} r {} (deepest {:e} r)", totals.n_penetrations, totals.deepest);
