@@ -9,7 +9,6 @@ mod chains;
 mod found;
 #[path = "reference/gaps.rs"]
 mod gaps;
-#[allow(dead_code, reason = "other tests use the rest of it")]
 mod irregular;
 mod noise;
 #[path = "reference/mod.rs"]
