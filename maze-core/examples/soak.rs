@@ -3,7 +3,7 @@
 //! Half of the ticks are played in random mazes (radii up to 0.499 of a corridor, accelerations to 1000, speeds to 10⁴), half in
 //! irregular scenes, in which every wall has coordinates of its own (`tests/irregular`). The judges know nothing of the engine:
 //! they look at every face. Prints how often a ball was in a wall, went through one, was not finite, or richer in energy than
-//! before, and how often the engine's own last check had to correct it; exit status 1 when any of that was ever so.
+//! before, and how often the engine's own last check had to correct it; exit status 1 if any of these is not 0.
 
 #![allow(clippy::disallowed_methods, reason = "the judge may compute in any way")]
 
@@ -15,7 +15,7 @@ mod noise;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use irregular::{Scene, depth};
-use maze_core::engine::Arc as Rolled;
+use maze_core::engine::RolledArc;
 use maze_core::impact::Path;
 use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Observer, Plane};
 use maze_core::{Radius, SortedPlanes, Tick, extrude, layout};
@@ -46,8 +46,8 @@ const TICK_S: f64 = 0.03;
 /// Deeper than this (radii) is a penetration; richer by more than this fraction is an energy gain. Both far above rounding.
 const LIMIT: f64 = 1.0e-9;
 
-/// What rounding may add to a depth: four times the spacing of floats at the ball's coordinates, which counts far from the
-/// origin (at 10⁵ units 6e-11 units).
+/// What rounding may add to a depth: four to eight ulps of the ball's largest coordinate, which count far from the origin (at
+/// 10⁵ units 9e-11 units).
 fn rounding(position: Vector2<f64>) -> f64 {
     4.0 * f64::EPSILON * position.amax()
 }
@@ -167,7 +167,7 @@ impl Observer for Crossings<'_> {
         }
     }
 
-    fn roll(&mut self, arc: &Rolled, _duration_s: f64) {
+    fn roll(&mut self, arc: &RolledArc, _duration_s: f64) {
         self.n_rolls += 1;
         let halfway = (arc.from + arc.to).try_normalize(0.0).unwrap_or(arc.to);
         let centre = arc.point + halfway * arc.radius;

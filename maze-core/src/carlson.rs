@@ -44,7 +44,8 @@ mod tests {
 
     #[test]
     fn values_of_the_published_table() {
-        // Carlson 1995, "Numerical computation of real or complex elliptic integrals", section 3, real arguments.
+        // Carlson 1995, "Numerical computation of real or complex elliptic integrals", section 3, real arguments; its 14
+        // digits continued to 17.
         for ([x, y, z], exact) in [
             ([1.0, 2.0, 0.0], 1.311_028_777_146_059_8),
             ([0.5, 1.0, 0.0], 1.854_074_677_301_371_8),
@@ -56,7 +57,7 @@ mod tests {
 
     #[test]
     fn degenerate_arguments_give_logarithms_and_arcs() {
-        // s R_F(1 - s², 1, 1) = asin(s) ... and s R_F(1, 1 + m s², 1) = asinh(√m s) / √m, up to ratios of 10³⁰⁰.
+        // s R_F(1 - s², 1, 1) = asin(s) ... and s R_F(1, 1 + m s², 1) = asinh(√m s) / √m, up to ratios of 10²⁰⁰.
         for s in [1.0e-9_f64, 0.1, 0.7] {
             assert!((s * r_f(1.0 - s * s, 1.0, 1.0) / s.asin() - 1.0).abs() < 1.0e-15);
             for m in [1.0e-3_f64, 1.0, 1.0e12, 1.0e200] {

@@ -21,15 +21,15 @@ impl Feature {
         }
     }
 
-    /// The point of it that a circle there touches.
-    pub fn closest_point(&self, centre: Vector2<f64>) -> Vector2<f64> {
+    /// The point of it at which a circle there touches it.
+    pub fn contact_point(&self, centre: Vector2<f64>) -> Vector2<f64> {
         match self {
             Self::Face(plane) => plane.facing.point(plane.offset, centre[1 - plane.facing.axis()]),
             Self::Point(point) => *point,
         }
     }
 
-    /// The centre of the circle that touches it there, less what rounding left between or behind.
+    /// The centre of the circle that touches it exactly, from one that does so but for rounding.
     ///
     /// On a face never inside by an ulp: else each point of a neighbour on the same line would be hit.
     pub(crate) fn touching(&self, centre: Vector2<f64>, normal: Vector2<f64>, radius: f64) -> Vector2<f64> {

@@ -150,8 +150,8 @@ fn touches_point(
     let is_touch = |t: f64| {
         let approach = half_slope(t) / radius;
         let graze = PASSING * from_point.velocity_at(t).norm();
-        // So does a slow one along which the acceleration leads but for this fraction: a ball that slides on a face, and all but
-        // stands over its end, is not pressed onto that.
+        // A slow touch counts only if the acceleration points at the point by more than this fraction: a ball that slides on a
+        // face, almost over its end, is not pressed onto the end.
         let is_pressed = from_point.at(t).dot(&a) < -PASSING * radius * a.norm();
         approach < -graze || (approach <= graze && is_pressed && half_curve(t) < 0.0)
     };
@@ -193,7 +193,7 @@ fn touches_point(
     })
 }
 
-/// The best impact so far: the earliest, and of equal times the one of the lowest rank.
+/// The best impact so far: the earliest; of equal times see `comes_first`.
 struct First<'a> {
     path: &'a Path,
     radius: f64,
@@ -302,10 +302,10 @@ impl<'a> First<'a> {
         if self.is_beside(point) || self.is_out_of_time(point) || self.impact.is_some_and(is_known) {
             return;
         }
+        // Ends of neighbouring faces at the same place count as the point that was left.
+        let has_left = left.is_some_and(|left| (left - point).amax() <= tolerance::snap(self.radius, point));
         // The root is sought within the whole time, not within what is left of it: its bits must not depend on what was
         // found before.
-        // So has a circle that leaves a point left others at the same place.
-        let has_left = left.is_some_and(|left| (left - point).amax() <= tolerance::snap(self.radius, point));
         if let Some(time_s) = touches_point(self.path, self.radius, point, self.horizon_s, has_left) {
             self.keep(Impact { time_s, touched: Feature::Point(point) });
         }
@@ -367,7 +367,7 @@ impl<'a> First<'a> {
     fn comes_first(&self, one: &Impact, other: &Impact) -> bool {
         let (centre, velocity) = (self.path.at(one.time_s), self.path.velocity_at(one.time_s));
         let order = |feature: &Feature| {
-            let away = centre - feature.closest_point(centre);
+            let away = centre - feature.contact_point(centre);
             (matches!(feature, Feature::Point(_)), away.norm_squared(), away.dot(&velocity), rank(feature))
         };
         order(&one.touched) < order(&other.touched)

@@ -111,7 +111,7 @@ fn bisection(n: usize, is_below: impl Fn(usize) -> bool) -> Vec<Probe> {
 impl Impact {
     /// The point of the wall that is touched by a circle whose path leads there.
     pub fn point(&self, path: &Path) -> Vector2<f64> {
-        self.touched.closest_point(path.at(self.time_s))
+        self.touched.contact_point(path.at(self.time_s))
     }
 }
 

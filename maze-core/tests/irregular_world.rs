@@ -79,7 +79,7 @@ impl Observer for Stretches {
         self.add([path.position, path.at(duration_s)], duration_s);
     }
 
-    fn roll(&mut self, arc: &maze_core::engine::Arc, duration_s: f64) {
+    fn roll(&mut self, arc: &maze_core::engine::RolledArc, duration_s: f64) {
         self.add([arc.from, arc.to].map(|normal| arc.point + normal * arc.radius), duration_s);
     }
 

@@ -110,7 +110,7 @@ pub const BARS: &[Bar] = &[
         longest_tick_s: ANY_TICK,
         value: |m| m.errors.as_ref()?.apex,
         limit: EXACT,
-        reason: "bounces that rise less than 1e-9 are rest; all others are exact but for rounding",
+        reason: "bounces that rise less than 3e-9 radii (7.5e-10) are rest; all others are exact but for rounding",
     },
     Bar {
         metric: "velocity error",
@@ -146,7 +146,7 @@ pub const BARS: &[Bar] = &[
         longest_tick_s: ANY_TICK,
         value: |m| Some(m.errors.as_ref()?.position),
         limit: 2.0e-9,
-        reason: "a bounce below 1e-9 is rest, and may be missed on the way up and on the way down",
+        reason: "a bounce that rises less than 3e-9 radii (7.5e-10) is rest, and may be missed on the way up and on the way down",
     },
     Bar {
         metric: "position error over steps, slits",
@@ -212,6 +212,15 @@ pub const BARS: &[Bar] = &[
         value: |m| Some(m.energy_gain_part),
         limit: EXACT,
         reason: "bounces and rest take energy and never give any, but for rounding",
+    },
+    Bar {
+        metric: "overlap corrected",
+        engines: &[Continuous],
+        families: ALL,
+        longest_tick_s: ANY_TICK,
+        value: |m| Some(m.corrected_overlap),
+        limit: 0.0,
+        reason: "the engine keeps the ball outside by itself, and its check at the end of a tick never has to",
     },
     Bar {
         metric: "time dropped",

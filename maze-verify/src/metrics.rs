@@ -144,6 +144,9 @@ pub struct Metrics {
     pub reach: f64,
     /// Time that the engine dropped (s).
     pub dropped_s: f64,
+    /// Deepest overlap that the engine's own check at the end of a tick had to correct (units); 0 for engines without one.
+    #[serde(default)]
+    pub corrected_overlap: f64,
     /// When it parted from the continuous engine (s).
     pub diverged_s: Option<f64>,
     /// Time a tick (ns); depends on the machine.
@@ -306,6 +309,7 @@ pub fn measure(stage: &Stage, track: &Track, truth: Option<&Track>, continuous: 
         mean_speed: track.balls.iter().map(|ball| ball.velocity.norm()).sum::<f64>() / (n_ticks + 1.0),
         reach: largest(track.balls.iter().map(|ball| (ball.position - start).norm())),
         dropped_s: track.ticks.iter().map(|tick| tick.dropped_s).sum(),
+        corrected_overlap: largest(track.ticks.iter().map(|tick| tick.corrected_overlap)),
         diverged_s: continuous.and_then(|other| diverged_s(track, other)),
         ns_per_tick: track.taken_s / n_ticks * 1.0e9,
         errors: truth.map(|truth| errors(stage, track, truth)),

@@ -57,7 +57,7 @@ impl Clearing {
             let (across, along) = (facing.axis(), 1 - facing.axis());
             let carrier = carriers[across].filter(|carrier| carrier.facing == facing);
             for row in planes.rows(facing, planes.rows_at(facing, &ranks[across])) {
-                // Others have made the box smaller meanwhile.
+                // Planes met before have made the box smaller.
                 if free.high[across] <= row.offset() - reach || row.offset() + reach <= free.low[across] {
                     continue;
                 }

@@ -36,8 +36,8 @@ pub struct Tick {
     pub deepest_penetration: f64,
     /// Time that was not simulated because a bound was reached (s).
     pub dropped_s: f64,
-    /// Overlap that the exact engine's last check found at the end of the tick and removed (units). It is 0 unless the engine
-    /// has a fault: what it returns is outside of every wall all the same.
+    /// Overlap (units) that the exact engine's check at the end of the tick found, and pushed the ball out of. Not 0 means a
+    /// fault of the engine, or a ball that was placed where it has no room; there some overlap may remain.
     pub corrected_overlap: f64,
 }
 
@@ -66,7 +66,7 @@ pub trait Observer {
     }
 
     /// The centre moved on an arc for a time (s).
-    fn roll(&mut self, arc: &Arc, duration_s: f64) {
+    fn roll(&mut self, arc: &RolledArc, duration_s: f64) {
         let _ = (arc, duration_s);
     }
 
@@ -86,7 +86,7 @@ impl<F: FnMut(&Hit)> Observer for F {
 
 /// A stretch of rolling around a point: the shorter way from one direction to the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arc {
+pub struct RolledArc {
     /// The middle of the circle on which the ball's centre moves.
     pub point: Vector2<f64>,
     /// Its radius: that of the ball (units).
@@ -97,7 +97,7 @@ pub struct Arc {
     pub to: Vector2<f64>,
 }
 
-/// What is noted while a tick is computed: the sums, and for who asks every hit.
+/// What is noted while a tick is computed: its sums, and its observer.
 struct Log<'a, O: Observer + ?Sized> {
     tick: Tick,
     observer: &'a mut O,

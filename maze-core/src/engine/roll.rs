@@ -3,7 +3,7 @@
 //! The speed follows from the energy, v² = v₀² + 2 r a.(n - n₀). So every event lies in a direction that the radius, the
 //! acceleration and the features around give by a square root, whatever the time: where the ball lifts off, where it turns
 //! back, and where it touches something else. Only the time at which it gets there is an elliptic integral, which Carlson's
-//! R_F gives by square roots too. Nothing depends on where ticks end. docs/physics.md derives the formulas.
+//! R_F gives by square roots too. Nothing depends on where ticks end but for rounding. docs/physics.md derives the formulas.
 
 use crate::ball::Ball;
 use crate::carlson::r_f;
@@ -11,15 +11,8 @@ use crate::impact::Feature;
 use crate::plane::Plane;
 use crate::roots::bracketed_root;
 use crate::sorted_planes::{SortedPlanes, WIDENED};
-use crate::tolerance::{self, TANGENT};
+use crate::tolerance::{self, BEHIND, LEAST_ENERGY, TANGENT};
 use nalgebra::Vector2;
-
-/// An energy this small against that of the whole arc is taken for one that just passes the top: a ball at exactly the speed
-/// that would come to rest there needs infinitely long.
-const LEAST_ENERGY: f64 = 1.0e-200;
-
-/// A direction that lies behind the ball by this little (sine of half the angle) is where it is.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Why a roll ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,7 +132,7 @@ impl Pivot<'_> {
                 || along == plane.end && 0.0 < way
         };
         let is_over = |along: f64, slack: f64| plane.start - slack <= along && along <= plane.end + slack;
-        if gap.abs() <= snap || (gap < 0.0 && -tolerance::touch(self.radius, centre) < gap) {
+        if -tolerance::touch(self.radius, centre) < gap && gap <= snap {
             let along = centre[1 - axis];
             if way.dot(&outward) < -TANGENT && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
                 return Some(Touch { along: arc.begin, normal: from, feature, distance: level });
@@ -188,7 +181,7 @@ struct Touch {
     along: f64,
     normal: Vector2<f64>,
     feature: Feature,
-    /// Of the feature from the point that the ball rolls around, towards the ball (units).
+    /// Orders features of one kind: a face's level (radii), a point's distance (units).
     distance: f64,
 }
 
@@ -251,7 +244,7 @@ impl Arc {
     fn ahead(&self, normal: Vector2<f64>) -> Option<f64> {
         let along = sine(self.top, normal) * self.side;
         // Below the middle nothing presses the ball onto the point.
-        let is_ahead = self.begin - ROUNDING <= along && 0.0 <= self.top.dot(&normal);
+        let is_ahead = self.begin - BEHIND <= along && 0.0 <= self.top.dot(&normal);
         is_ahead.then_some(if along < self.begin { self.begin } else { along })
     }
 

@@ -14,11 +14,12 @@ pub struct Contact {
     pub normal: Vector2<f64>,
 }
 
-/// At most two active contacts; with two, the ball is at rest. More than two are redundant in the plane.
+/// At most two active contacts; with two, the ball is at rest, or they are opposite and it moves along both. More than two are
+/// redundant in the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Contacts([Option<Contact>; 2]); // `None` only before another `None`.
+pub struct Contacts([Option<Contact>; 2]); // Invariant: the second is `None` where the first is.
 
-/// A ball and what supports it: all that the motion of the next tick depends on.
+/// A ball and what supports it: all that the motion of the next tick depends on, once the ball has moved.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BallState {
     /// Where it is and how it moves.
@@ -43,8 +44,8 @@ impl Contacts {
         self.0[1].is_some()
     }
 
-    /// The one contact of a ball that moves along something.
-    pub(super) fn single(&self) -> Option<&Contact> {
+    /// The contact of a ball that moves along something; the first of two.
+    pub(super) fn first(&self) -> Option<&Contact> {
         self.0[0].as_ref()
     }
 
@@ -74,7 +75,7 @@ impl Contacts {
         let is_broken = |contact: &Contact| {
             matches!(contact.feature, Feature::Face(_)) && 0.0 <= acceleration.dot(&contact.normal)
         };
-        if self.single().is_some_and(is_broken) {
+        if self.first().is_some_and(is_broken) {
             self.clear();
         }
     }
@@ -82,6 +83,7 @@ impl Contacts {
     /// The acceleration along what supports the ball.
     pub(super) fn along(&self, acceleration: Vector2<f64>) -> Vector2<f64> {
         match self.0 {
+            [Some(_), Some(_)] => Vector2::zeros(),
             [Some(contact), None] => acceleration - contact.normal * acceleration.dot(&contact.normal),
             _ => acceleration,
         }
@@ -91,14 +93,15 @@ impl Contacts {
 /// Which of two touched features an acceleration presses a ball onto that is at rest.
 ///
 /// With a = -(α n₁ + β n₂) it is held by both where α and β are 0 or more. Else the contact with the negative coefficient
-/// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Between opposite
-/// features, where α and β are not determined, each counts alone.
+/// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Features in one line,
+/// where α and β are not determined, never hold it together.
 pub(super) fn presses(acceleration: Vector2<f64>, one: Vector2<f64>, two: Vector2<f64>) -> [bool; 2] {
     let alone = [one, two].map(|normal| acceleration.dot(&normal) < 0.0);
     let cross = one.perp(&two);
     if cross.abs() < tolerance::PASSING {
-        // Neighbours on a floor press alike: the later one supports the ball.
-        return [alone[0] && one.dot(&two) < 0.0, alone[1]];
+        // Of neighbours on a floor the later one supports the ball, of opposite features the one that is pressed more.
+        let keeps_one = one.dot(&two) < 0.0 && acceleration.dot(&one) < acceleration.dot(&two);
+        return [alone[0] && keeps_one, alone[1] && !keeps_one];
     }
     let rounding = tolerance::CONE * acceleration.norm();
     let side = if cross < 0.0 { -1.0 } else { 1.0 };
@@ -150,5 +153,8 @@ mod tests {
         contacts.set_two([floor, ceiling]);
         contacts.settle(Vector2::new(1.0, 2.0));
         assert_eq!(contacts.iter().collect::<Vec<_>>(), [ceiling]);
+        // However they are pressed: what is left of a wedge is less than a graze.
+        let narrower = contact(-4.0e-7, -1.0).normal;
+        assert_eq!(presses(Vector2::new(1.0, -1.0e-8), floor.normal, narrower), [false, true]);
     }
 }

@@ -236,7 +236,7 @@ pub(crate) fn depth(planes: &[Plane], centre: Vector2<f64>, radius: f64) -> f64 
     radius - nearest.sqrt()
 }
 
-/// Whether a point lies in a box: in front of no face and behind the nearest.
+/// Whether a point lies in no wall: the first face on a ray towards +x looks back at it.
 fn is_free(planes: &[Plane], centre: Vector2<f64>) -> bool {
     // Along a ray towards +x: the first face that is crossed must look back.
     let crossed = planes.iter().filter(|plane| {

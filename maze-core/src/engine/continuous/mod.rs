@@ -7,7 +7,7 @@ use super::clearing::Clearing;
 use super::collision::{self, Surface};
 use super::roll::{self, Pivot, tangent};
 use super::state::{BallState, Contact, Contacts, presses};
-use super::{Arc as RolledArc, Engine, Hit, Log, Observer, Tick};
+use super::{Engine, Hit, Log, Observer, RolledArc, Tick};
 use crate::ball::{Ball, BallSpec, OutOfRange};
 use crate::impact::{self, Feature, Path};
 use crate::roots::falls_through_zero;
@@ -16,10 +16,9 @@ use crate::tolerance::{self, TANGENT};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces that lose little come
-/// close together before they end in rest, some ln(1 / (1 - e)) / (1 - e) of them: this is enough for e = 0.998 in the
-/// steepest board. A ball without loss that is hammered against a wall has more, and the time that is left is dropped and
-/// reported.
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces from speed v end in rest
+/// after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998 from up to
+/// 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses nothing may have more; the time that is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 4096;
 
 /// Longest tick (s).
@@ -31,7 +30,7 @@ const WORTHWHILE: f64 = 0.25;
 /// Ticks until a clearing is looked for again where there was none: between walls without thickness, say.
 const PATIENCE: u32 = 8;
 
-/// A place where the ball was at the last hit or lift-off.
+/// The last hit and the last lift-off within this tick.
 #[derive(Clone, Copy, Debug, Default)]
 struct Recent {
     /// The last hit: where the ball was, and what it touched.
@@ -41,7 +40,7 @@ struct Recent {
 }
 
 /// The exact engine. Its motion does not depend on the tick's length (but for rolling resistance, which is taken at the end
-/// of each tick), nor its cost on the speed. The same inputs give the same bits on every platform.
+/// of each tick, and for rounding), nor its cost on the speed. The same inputs give the same bits on every platform.
 #[derive(Clone, Debug)]
 #[repr(C)] // What the usual tick needs comes first, in two cache lines.
 pub struct Continuous {
@@ -113,7 +112,7 @@ impl Continuous {
 
     /// When and off which end the ball slides off the face that supports it.
     fn slides_off(&self, path: &Path) -> Option<(f64, Vector2<f64>)> {
-        let Some(&Contact { feature: Feature::Face(face), .. }) = self.contacts.single() else { return None };
+        let Some(&Contact { feature: Feature::Face(face), .. }) = self.contacts.first() else { return None };
         let axis = 1 - face.facing.axis();
         let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
@@ -135,7 +134,7 @@ impl Continuous {
     fn advance<O: Observer + ?Sized>(&mut self, path: &Path, time_s: f64, log: &mut Log<O>) {
         log.observer.flight(path, time_s);
         self.ball = Ball { position: path.at(time_s), velocity: path.velocity_at(time_s) };
-        if let Some(&Contact { feature, normal }) = self.contacts.single() {
+        if let Some(&Contact { feature, normal }) = self.contacts.first() {
             self.ball.position = feature.touching(self.ball.position, normal, self.radius());
             self.ball.velocity -= normal * self.ball.velocity.dot(&normal);
         }
@@ -157,7 +156,7 @@ impl Continuous {
         {
             self.advance(&path, time_s, log);
             // Over the very end the ball stands on the point there: it lifts off at once if it is fast, or rolls around it.
-            if let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.single() {
+            if let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.first() {
                 let axis = 1 - face.facing.axis();
                 self.ball.position[axis] = point[axis];
                 self.contacts.set(Contact { feature: Feature::Point(point), normal });
@@ -213,7 +212,7 @@ impl Continuous {
         let Some(normal) = feature.normal_at(before.position) else { return };
         let position = feature.touching(before.position, normal, radius);
         let contact = Contact { feature, normal };
-        let support = self.contacts.single().copied();
+        let support = self.contacts.first().copied();
         // A feature that was hit at the same place a moment ago still is touched.
         let snap = tolerance::snap(radius, position);
         let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, again)| again);
@@ -238,7 +237,7 @@ impl Continuous {
         recent.hit = Some((position, contact));
         log.tick.n_rests += u32::from(outcome.rests_on[0]);
         log.tick.n_corner_hits += u32::from(matches!(feature, Feature::Point(_)));
-        let point = feature.closest_point(position);
+        let point = feature.contact_point(position);
         let speed = -before.velocity.dot(&normal);
         log.note_hit(speed, &Hit { point, normal, penetration: 0.0, before, after: self.ball });
     }
@@ -309,7 +308,7 @@ impl Continuous {
         let mut recent = Recent::default();
         for n_events in 1..=MAX_EVENTS {
             self.contacts.settle(acceleration);
-            left_s -= match self.contacts.single() {
+            left_s -= match self.contacts.first() {
                 _ if self.contacts.are_two() => self.rest(left_s, log),
                 Some(&Contact { feature: Feature::Point(point), normal }) => {
                     self.roll(point, normal, acceleration, left_s, &mut recent, log)
@@ -365,7 +364,7 @@ impl Continuous {
         let from = self.ball.position;
         let n_events = self.pass(acceleration, &mut log);
         self.look_around();
-        // Where a clearing was found, every plane near was looked at.
+        // Where a clearing was found, every plane near was checked but the faces that support the ball, which it was put onto.
         if self.clearing.is_none() && (1 < n_events || !self.contacts.is_empty()) {
             self.guard(from, &mut log);
         }
