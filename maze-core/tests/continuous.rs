@@ -7,8 +7,10 @@
 )]
 #![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use trigonometry")]
 
+mod images;
 mod noise;
 
+use images::{Image, MIRRORED, TURNED};
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, Tick,
     extrude, layout,
@@ -450,14 +452,8 @@ fn an_observer_sees_every_hit_and_changes_none() {
     }
 }
 
-/// A quarter turn or a mirror image, of points and of planes.
-struct Symmetry {
-    point: fn(Vector2<f64>) -> Vector2<f64>,
-    plane: fn(Plane) -> Plane,
-}
-
 /// Runs a maze and its image side by side.
-fn image_of_the_path_is_the_path_of_the_image(symmetry: &Symmetry) {
+fn image_of_the_path_is_the_path_of_the_image(symmetry: &Image) {
     let maze = random_maze(3);
     let image = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).map(symmetry.plane);
     let image = Arc::new(SortedPlanes::new(image).unwrap());
@@ -476,25 +472,10 @@ fn image_of_the_path_is_the_path_of_the_image(symmetry: &Symmetry) {
 
 #[test]
 fn a_mirrored_maze_gives_the_mirrored_path() {
-    image_of_the_path_is_the_path_of_the_image(&Symmetry {
-        point: |v| Vector2::new(-v.x, v.y),
-        plane: |p| match p.facing {
-            Facing::PlusX => plane(Facing::MinusX, -p.offset, p.start, p.end),
-            Facing::MinusX => plane(Facing::PlusX, -p.offset, p.start, p.end),
-            facing => plane(facing, p.offset, -p.end, -p.start),
-        },
-    });
+    image_of_the_path_is_the_path_of_the_image(&MIRRORED);
 }
 
 #[test]
 fn a_maze_turned_by_a_quarter_gives_the_turned_path() {
-    image_of_the_path_is_the_path_of_the_image(&Symmetry {
-        point: |v| Vector2::new(-v.y, v.x),
-        plane: |p| match p.facing {
-            Facing::PlusX => plane(Facing::PlusY, p.offset, -p.end, -p.start),
-            Facing::MinusX => plane(Facing::MinusY, p.offset, -p.end, -p.start),
-            Facing::PlusY => plane(Facing::MinusX, -p.offset, p.start, p.end),
-            Facing::MinusY => plane(Facing::PlusX, -p.offset, p.start, p.end),
-        },
-    });
+    image_of_the_path_is_the_path_of_the_image(&TURNED);
 }

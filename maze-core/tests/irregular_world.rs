@@ -2,14 +2,14 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::disallowed_methods, reason = "the truth that a test compares with may use any function")]
 
+mod images;
 mod irregular;
 mod noise;
 
+use images::{Image, MIRRORED, TURNED};
 use irregular::{Scene, depth};
 use maze_core::impact::Path;
-use maze_core::{
-    Ball, BallSpec, Continuous, Engine, Facing, Hit, Observer, Plane, Radius, SortedPlanes, Tick,
-};
+use maze_core::{Ball, BallSpec, Continuous, Engine, Hit, Observer, Plane, Radius, SortedPlanes, Tick};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
@@ -113,19 +113,18 @@ fn an_observer_sees_the_whole_tick_and_changes_nothing() {
     }
 }
 
-/// A way to look at a scene that must not change the motion.
-struct Image {
-    point: fn(Vector2<f64>) -> Vector2<f64>,
-    plane: fn(Plane) -> Plane,
+/// A scene and a factor on top of its image.
+struct Scaled {
+    image: Image,
     scale: f64,
 }
 
-impl Image {
+impl Scaled {
     fn of(&self, scene: &Scene) -> Scene {
         let Scene { spec, ball, .. } = *scene;
         Scene {
-            planes: scene.planes.iter().map(|plane| (self.plane)(*plane)).collect(),
-            middle: (self.point)(scene.middle),
+            planes: scene.planes.iter().map(|plane| (self.image.plane)(*plane)).collect(),
+            middle: (self.image.point)(scene.middle),
             spec: BallSpec {
                 radius: Radius::new(spec.radius.units() * self.scale).unwrap(),
                 resistance: spec.resistance * self.scale,
@@ -137,7 +136,7 @@ impl Image {
     }
 
     fn of_ball(&self, ball: Ball) -> Ball {
-        Ball { position: (self.point)(ball.position), velocity: (self.point)(ball.velocity) }
+        Ball { position: (self.image.point)(ball.position), velocity: (self.image.point)(ball.velocity) }
     }
 
     /// Runs scenes and their images side by side: the image of the path is the path of the image, to the bit, and so are rests,
@@ -150,7 +149,7 @@ impl Image {
             for (n, pull) in scene.pulls(seed).take(300).enumerate() {
                 let state = one.state();
                 let tick = one.tick(pull).unwrap();
-                let of_image = other.tick((self.point)(pull)).unwrap();
+                let of_image = other.tick((self.image.point)(pull)).unwrap();
                 let image = Tick {
                     hardest_hit_speed: tick.hardest_hit_speed * self.scale,
                     deepest_penetration: tick.deepest_penetration * self.scale,
@@ -169,55 +168,30 @@ impl Image {
     }
 }
 
-fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
-    Plane { facing, offset, start, end }
-}
-
 #[test]
 fn a_mirrored_scene_gives_the_mirrored_path() {
-    let image = Image {
-        point: |v| Vector2::new(-v.x, v.y),
-        plane: |p| match p.facing {
-            Facing::PlusX => plane(Facing::MinusX, -p.offset, p.start, p.end),
-            Facing::MinusX => plane(Facing::PlusX, -p.offset, p.start, p.end),
-            facing => plane(facing, p.offset, -p.end, -p.start),
-        },
-        scale: 1.0,
-    };
-    image.holds(1000..1200);
+    Scaled { image: MIRRORED, scale: 1.0 }.holds(1000..1200);
 }
 
 #[test]
 fn a_scene_turned_by_a_quarter_gives_the_turned_path() {
-    let image = Image {
-        point: |v| Vector2::new(-v.y, v.x),
-        plane: |p| match p.facing {
-            Facing::PlusX => plane(Facing::PlusY, p.offset, -p.end, -p.start),
-            Facing::MinusX => plane(Facing::MinusY, p.offset, -p.end, -p.start),
-            Facing::PlusY => plane(Facing::MinusX, -p.offset, p.start, p.end),
-            Facing::MinusY => plane(Facing::PlusX, -p.offset, p.start, p.end),
-        },
-        scale: 1.0,
-    };
-    image.holds(2000..2200);
+    Scaled { image: TURNED, scale: 1.0 }.holds(2000..2200);
 }
 
 #[test]
 fn a_scene_made_smaller_by_a_power_of_two_gives_the_smaller_path() {
     let image = Image {
         point: |v| v / 1024.0,
-        plane: |p| plane(p.facing, p.offset / 1024.0, p.start / 1024.0, p.end / 1024.0),
-        scale: 1.0 / 1024.0,
+        plane: |p| Plane { offset: p.offset / 1024.0, start: p.start / 1024.0, end: p.end / 1024.0, ..p },
     };
-    image.holds(3000..3200);
+    Scaled { image, scale: 1.0 / 1024.0 }.holds(3000..3200);
 }
 
 #[test]
 fn a_scene_made_larger_by_a_power_of_two_gives_the_larger_path() {
     let image = Image {
         point: |v| v * 8.0,
-        plane: |p| plane(p.facing, p.offset * 8.0, p.start * 8.0, p.end * 8.0),
-        scale: 8.0,
+        plane: |p| Plane { offset: p.offset * 8.0, start: p.start * 8.0, end: p.end * 8.0, ..p },
     };
-    image.holds(4000..4200);
+    Scaled { image, scale: 8.0 }.holds(4000..4200);
 }

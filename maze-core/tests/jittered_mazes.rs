@@ -5,6 +5,7 @@
 
 mod irregular;
 mod noise;
+mod obj_text;
 
 use irregular::depth;
 use maze_core::{
@@ -13,21 +14,7 @@ use maze_core::{
 use maze_core::{gravity, import, layout};
 use nalgebra::Vector2;
 use noise::Noise;
-
-/// A closed box as OBJ text; corners count on from `base`.
-fn block(base: usize, low: [f64; 2], high: [f64; 2]) -> String {
-    let (low, high) = ([low[0], low[1], 0.0], [high[0], high[1], 0.55]);
-    let mut text = String::new();
-    for corner in 0..8 {
-        let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
-        text += &format!("v {} {} {}\n", pick(0), pick(1), pick(2));
-    }
-    for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
-        let [a, b, c, d] = face.map(|corner| corner + base);
-        text += &format!("f {a} {b} {c} {d}\n");
-    }
-    text
-}
+use obj_text::block;
 
 /// The layout with a box for each wall between two cells, shifted by up to 0.2, 0.06 to 0.3 thick, and about as long as a cell.
 fn obj(width: usize, height: usize, seed: u64) -> String {
@@ -67,7 +54,11 @@ fn obj(width: usize, height: usize, seed: u64) -> String {
         ([-0.1, -0.1], [right + 0.1, 0.1]),
         ([-0.1, top - 0.1], [right + 0.1, top + 0.1]),
     ]);
-    boxes.iter().enumerate().map(|(n, (low, high))| block(8 * n, *low, *high)).collect()
+    boxes
+        .iter()
+        .enumerate()
+        .map(|(n, (low, high))| block(8 * n, [low[0], low[1], 0.0], [high[0], high[1], 0.55]))
+        .collect()
 }
 
 /// The accelerations of three ways to play.

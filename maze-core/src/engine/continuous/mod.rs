@@ -118,13 +118,7 @@ impl Continuous {
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
         let lower = falls_through_zero(along - face.start, speed, pull).map(|time_s| (time_s, face.start));
         let (time_s, end) = match (upper, lower) {
-            (Some(upper), Some(lower)) => {
-                if lower.0 < upper.0 {
-                    lower
-                } else {
-                    upper
-                }
-            }
+            (Some(upper), Some(lower)) if lower.0 < upper.0 => lower,
             (upper, lower) => upper.or(lower)?,
         };
         Some((time_s, face.facing.point(face.offset, end)))
