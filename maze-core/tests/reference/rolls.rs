@@ -96,9 +96,9 @@ pub(crate) fn turning_courses() -> [Course; 3] {
 }
 
 impl Course {
-    /// The largest distance (radii) between engine and reference, at quarters of both stretches and with each tick length.
-    pub(crate) fn compare(&self, [r, strength, rolling, e]: [f64; 4]) -> f64 {
-        let mut worst = 0.0_f64;
+    /// Compares engine and reference at quarters of both stretches and with each tick length; how often of 32 times.
+    pub(crate) fn compare(&self, [r, strength, rolling, e]: [f64; 4]) -> u32 {
+        let mut n_compared = 0;
         let scaled = |plane: &Plane| Plane {
             offset: plane.offset * r,
             start: plane.start * r,
@@ -149,11 +149,11 @@ impl Course {
                         "{case}: {} r apart, {ball:?} instead of {truth:?}",
                         apart / r
                     );
-                    worst = worst.max(apart / r);
+                    n_compared += 1;
                 }
             }
         }
-        worst
+        n_compared
     }
 }
 
@@ -167,13 +167,15 @@ pub(crate) const BALLS: [[f64; 3]; 4] = [
 
 #[test]
 fn rolls_over_edges_free_ends_steps_and_slits_are_those_of_the_reference() {
+    let (mut n_compared, mut n) = (0, 0);
     for [r, strength, rolling] in BALLS {
         for e in [0.0, 0.8] {
-            let worst = courses().into_iter().map(|course| course.compare([r, strength, rolling, e]));
-            println!(
-                "r {r}, {strength} units/s², rolling {rolling}, e {e}: {:e} r",
-                worst.fold(0.0, f64::max)
-            );
+            for course in courses() {
+                n_compared += course.compare([r, strength, rolling, e]);
+                n += 32;
+            }
         }
     }
+    // The others had too many hits by then.
+    assert!(n * 85 / 100 < n_compared, "{n_compared} of {n} compared");
 }
