@@ -29,6 +29,20 @@ impl Feature {
         }
     }
 
+    /// Orders features at one distance from a centre, as two an ulp apart may be: less is farther towards the centre. The order is
+    /// the same in a scene that is mirrored or turned.
+    pub(crate) fn prominence(&self, centre: Vector2<f64>) -> [f64; 4] {
+        let point = self.contact_point(centre);
+        let away = centre - point;
+        let [large, small] = if away.x.abs() < away.y.abs() { [1, 0] } else { [0, 1] };
+        let inward = |axis: usize| match away[axis] {
+            away if 0.0 < away => -point[axis],
+            away if away < 0.0 => point[axis],
+            _ => 0.0,
+        };
+        [away[large].abs(), away[small].abs(), inward(large), inward(small)]
+    }
+
     /// The centre of the circle that touches it exactly, from one that does so but for rounding.
     ///
     /// On a face never inside by an ulp: else each point of a neighbour on the same line would be hit.

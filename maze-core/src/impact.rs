@@ -189,7 +189,9 @@ fn touches_point(
             true => bracketed_root(from, to, |t| (excess(t), 2.0 * half_slope(t))),
             false => from,
         };
-        (is_touch(time_s) && !(has_left && time_s == 0.0)).then_some(time_s)
+        // A slow approach is a graze only if the path does not lead deeper before it turns.
+        let is_deep = excess(to) < -graze;
+        ((is_deep || is_touch(time_s)) && !(has_left && time_s == 0.0)).then_some(time_s)
     })
 }
 
@@ -361,14 +363,15 @@ impl<'a> First<'a> {
     }
 
     /// Which of two impacts at the same time counts: a face before a point, then the nearer one, then the one that is approached
-    /// faster. All of that is the same in a scene that is mirrored or turned; only then the coordinates decide.
+    /// faster, then the one that stands out farther. All of that is the same in a scene that is mirrored or turned; only then the coordinates decide.
     #[cold]
     #[inline(never)]
     fn comes_first(&self, one: &Impact, other: &Impact) -> bool {
         let (centre, velocity) = (self.path.at(one.time_s), self.path.velocity_at(one.time_s));
         let order = |feature: &Feature| {
             let away = centre - feature.contact_point(centre);
-            (matches!(feature, Feature::Point(_)), away.norm_squared(), away.dot(&velocity), rank(feature))
+            let is_point = matches!(feature, Feature::Point(_));
+            (is_point, away.norm_squared(), away.dot(&velocity), feature.prominence(centre), rank(feature))
         };
         order(&one.touched) < order(&other.touched)
     }

@@ -7,6 +7,9 @@ use nalgebra::Vector2;
 /// the bounces: without loss some π / angle times, and with loss it comes out sooner or not at all. After this many it stays.
 const MAX_REFLECTIONS: u32 = 4096;
 
+/// What is left of the speed (a fraction) when it has collapsed: far above where squares leave the range of floats.
+const COLLAPSED: f64 = 1.0e-40;
+
 /// One of the features that a collision takes place at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
@@ -53,6 +56,9 @@ pub(super) fn collide(
     let mut rests_on = [false, other.is_active];
     let mut velocity = velocity;
     let mut was_plastic = false;
+    // What a reflection leaves along its normal by rounding.
+    let rounding = 4.0 * f64::EPSILON * velocity.norm();
+    let least = COLLAPSED * velocity.amax();
     for n_reflections in 0..=MAX_REFLECTIONS {
         let approach = surfaces.map(|surface| -velocity.dot(&surface.normal));
         let slowest = TANGENT * velocity.norm();
@@ -64,7 +70,8 @@ pub(super) fn collide(
         let rebound = restitution * approach[index];
         let is_plastic = rebound < surfaces[index].rest_speed;
         // Two rests in turn are the collapse: what is left is driven into both surfaces.
-        let collapses = is_plastic && was_plastic && slowest < approach[index];
+        let collapses = (is_plastic && was_plastic && slowest < approach[index])
+            || (n_reflections != 0 && velocity.amax() <= least);
         if collapses || n_reflections == MAX_REFLECTIONS {
             rests_on = [rests_on[0] || collapses, rests_on[1] || collapses];
             velocity = collapsed(velocity, surfaces);
@@ -75,11 +82,25 @@ pub(super) fn collide(
         rests_on[index] = is_plastic;
         was_plastic = is_plastic;
     }
-    let outcome = settled(velocity, surfaces, rests_on);
-    if is_held && surfaces.iter().all(|surface| outcome.velocity.norm() < surface.rest_speed) {
+    let outcome = settled(velocity, rounding, surfaces, rests_on);
+    if is_held && surfaces.iter().all(|surface| outcome.velocity.norm() <= surface.rest_speed) {
         return Outcome { velocity: Vector2::zeros(), rests_on: [true; 2] };
     }
     outcome
+}
+
+/// A hit between two opposite features without play, on a third that supports the ball: a motion across the gap has nowhere to go,
+/// and what drives the ball into its support ends.
+pub(super) fn jam(velocity: Vector2<f64>, hit: Vector2<f64>, support: Vector2<f64>) -> Outcome {
+    let along = with_normal_speed(velocity, hit, 0.0);
+    let (rise, slowest) = (along.dot(&support), TANGENT * along.norm());
+    let velocity = if rise < -slowest { Vector2::zeros() } else { along };
+    Outcome { velocity, rests_on: [false, rise <= slowest] }
+}
+
+/// Whether two normals are opposite but for what a graze may be off.
+pub(super) fn are_opposite(one: Vector2<f64>, two: Vector2<f64>) -> bool {
+    one.dot(&two) < 0.0 && one.perp(&two).abs() < PASSING
 }
 
 /// Whether the normals lie along one line.
@@ -96,12 +117,12 @@ fn collapsed(velocity: Vector2<f64>, surfaces: [&Surface; 2]) -> Vector2<f64> {
 }
 
 /// Keeps the surfaces that the ball does not move away from, and takes the rounding along their normals from the velocity.
-fn settled(velocity: Vector2<f64>, surfaces: [&Surface; 2], rests_on: [bool; 2]) -> Outcome {
-    let slowest = TANGENT * velocity.norm();
+fn settled(velocity: Vector2<f64>, rounding: f64, surfaces: [&Surface; 2], rests_on: [bool; 2]) -> Outcome {
+    let slowest = TANGENT * velocity.norm() + rounding;
     let [hit, other] = surfaces;
     let stays = |index: usize| rests_on[index] && velocity.dot(&surfaces[index].normal).abs() <= slowest;
     let mut rests_on = [stays(0), stays(1)];
-    let is_opposite = are_parallel(surfaces) && hit.normal.dot(&other.normal) < 0.0;
+    let is_opposite = are_opposite(hit.normal, other.normal);
     // In a gap without play a motion across it has nowhere to go.
     let velocity = match is_opposite && velocity.dot(&hit.normal).abs() <= slowest {
         true => with_normal_speed(velocity, hit.normal, 0.0),

@@ -11,7 +11,7 @@ use crate::impact::Feature;
 use crate::plane::Plane;
 use crate::roots::bracketed_root;
 use crate::sorted_planes::{SortedPlanes, WIDENED};
-use crate::tolerance::{self, BEHIND, LEAST_ENERGY, TANGENT};
+use crate::tolerance::{self, BEHIND, LEAST_ENERGY, PASSING, TANGENT};
 use nalgebra::Vector2;
 
 /// Why a roll ended.
@@ -57,9 +57,15 @@ impl Pivot<'_> {
         Ball { position: self.point + normal * self.radius, velocity: tangent(normal) * speed }
     }
 
-    /// Whether a ball leaves the point: a.n + v²/r >= 0.
+    /// Whether a ball leaves the point: a.n + v²/r >= 0, for longer than rounding tells.
     fn lifts_off(&self, normal: Vector2<f64>, speed: f64) -> bool {
-        0.0 <= self.acceleration.dot(&normal) + speed * speed / self.radius
+        let outward = self.acceleration.dot(&normal) + speed * speed / self.radius;
+        // On the way up this falls at a rate. A ball that would rise by less than a graze until it is pressed again stays: the
+        // rise is 2/3 of outward cubed by rate squared.
+        let rate = -3.0 * speed * self.acceleration.dot(&tangent(normal)) / self.radius;
+        let graze = tolerance::graze(self.radius, self.point);
+        let stays = 0.0 < rate && 2.0 * outward * outward * outward <= 3.0 * graze * rate * rate;
+        0.0 <= outward && !stays
     }
 
     /// Rolls one way until the next event, for `left_s` at most.
@@ -77,7 +83,7 @@ impl Pivot<'_> {
         for candidate in self.touches(normal, &arc) {
             let comes_first = match &first {
                 None => candidate.along <= sine,
-                Some(known) => candidate.order() < known.order(),
+                Some(known) => self.comes_first(&candidate, known),
             };
             if comes_first {
                 (sine, end) = (candidate.along, End::Touch(candidate.feature));
@@ -91,6 +97,17 @@ impl Pivot<'_> {
         }
         let normal = first.map_or_else(|| arc.normal(sine), |touch| touch.normal);
         Roll { normal, speed: if end == End::Turn { 0.0 } else { arc.speed(sine) }, time_s, end }
+    }
+
+    /// Of touches at one place a face comes before a point, then the farther feature before the nearer one, then what stands out
+    /// farther. That is the same in a scene that is mirrored or turned.
+    fn comes_first(&self, one: &Touch, other: &Touch) -> bool {
+        let order = |touch: &Touch| {
+            let centre = self.point + touch.normal * self.radius;
+            let is_point = matches!(touch.feature, Feature::Point(_));
+            (touch.along, is_point, -touch.distance, touch.feature.prominence(centre))
+        };
+        order(one) < order(other)
     }
 
     /// What the ball can touch on its way.
@@ -134,7 +151,7 @@ impl Pivot<'_> {
         let is_over = |along: f64, slack: f64| plane.start - slack <= along && along <= plane.end + slack;
         if -tolerance::touch(self.radius, centre) < gap && gap <= snap {
             let along = centre[1 - axis];
-            if way.dot(&outward) < -TANGENT && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
+            if way.dot(&outward) <= 0.0 && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
                 return Some(Touch { along: arc.begin, normal: from, feature, distance: level });
             }
         }
@@ -159,19 +176,23 @@ impl Pivot<'_> {
             return None;
         }
         let feature = Feature::Point(point);
-        let from_point = centre - point;
-        let gap = from_point.norm() - self.radius;
-        if gap <= tolerance::snap(self.radius, centre) && -tolerance::touch(self.radius, centre) < gap {
-            let way = tangent(from) * arc.side;
-            if way.dot(&from_point) < -TANGENT * self.radius {
-                return Some(Touch { along: arc.begin, normal: from, feature, distance });
-            }
-        }
         let half = distance / (2.0 * self.radius);
         let direction = between / distance;
         let normal =
             direction * half - tangent(direction) * (arc.side * ((1.0 - half) * (1.0 + half)).sqrt());
-        Some(Touch { along: arc.ahead(normal)?, normal, feature, distance })
+        // One that lies ahead is touched there, however near it is now: neighbours would hand the ball to each other.
+        if let Some(along) = arc.ahead(normal) {
+            return Some(Touch { along, normal, feature, distance });
+        }
+        let from_point = centre - point;
+        let gap = from_point.norm() - self.radius;
+        let is_touched =
+            -tolerance::touch(self.radius, centre) < gap && gap <= tolerance::snap(self.radius, centre);
+        // Past one on the other side the ball goes on, as through any gap that is too narrow by a graze.
+        let slowest = if from.dot(&from_point) < 0.0 { PASSING } else { TANGENT };
+        let approach = -(tangent(from) * arc.side).dot(&from_point);
+        let is_hit = is_touched && slowest * self.radius < approach;
+        is_hit.then_some(Touch { along: arc.begin, normal: from, feature, distance })
     }
 }
 
@@ -183,14 +204,6 @@ struct Touch {
     feature: Feature,
     /// Orders features of one kind: a face's level (radii), a point's distance (units).
     distance: f64,
-}
-
-impl Touch {
-    /// Of touches at one place a face comes before a point, then the farther feature before the nearer one. That is the same in
-    /// a scene that is mirrored or turned.
-    fn order(&self) -> (f64, bool, f64) {
-        (self.along, matches!(self.feature, Feature::Point(_)), -self.distance)
-    }
 }
 
 /// One stretch of the pendulum's motion, in one direction.
@@ -314,6 +327,10 @@ impl Arc {
 
 /// sin(θ/2) of the angle from one unit vector to another, counter-clockwise.
 fn sine(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
-    let half = (to - from).norm() / 2.0;
-    if from.perp(&to) < 0.0 { -half } else { half }
+    let (half, perp) = ((to - from).norm() / 2.0, from.perp(&to));
+    // In one direction but for their lengths: a side would be rounding's, and another one in a mirrored scene.
+    if perp == 0.0 && 0.0 < from.dot(&to) {
+        return 0.0;
+    }
+    if perp < 0.0 { -half } else { half }
 }

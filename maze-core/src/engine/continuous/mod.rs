@@ -209,7 +209,10 @@ impl Continuous {
         let support = self.contacts.first().copied();
         // A feature that was hit at the same place a moment ago still is touched.
         let snap = tolerance::snap(radius, position);
-        let again = recent.hit.filter(|(place, _)| (position - place).amax() <= snap).map(|(_, again)| again);
+        let is_again = |(place, again): &(Vector2<f64>, Contact)| {
+            (position - place).amax() <= snap && again.feature != feature
+        };
+        let again = recent.hit.filter(is_again).map(|(_, again)| again);
         let other = support.or(again);
         let surface = |normal: Vector2<f64>, other: Option<Vector2<f64>>, is_active: bool| Surface {
             normal,
@@ -219,8 +222,18 @@ impl Continuous {
         let on_hit = surface(normal, other.map(|other| other.normal), false);
         let on_other = other.map(|other| surface(other.normal, Some(normal), support.is_some()));
         let is_held = other.is_some_and(|other| presses(acceleration, other.normal, normal) == [true, true]);
-        let outcome =
-            collision::collide(before.velocity, &on_hit, on_other.as_ref(), is_held, self.spec.restitution);
+        let outcome = match (support, again) {
+            (Some(support), Some(again)) if collision::are_opposite(again.normal, normal) => {
+                collision::jam(before.velocity, normal, support.normal)
+            }
+            _ => collision::collide(
+                before.velocity,
+                &on_hit,
+                on_other.as_ref(),
+                is_held,
+                self.spec.restitution,
+            ),
+        };
         self.ball = Ball { position, velocity: outcome.velocity };
         match (outcome.rests_on, other) {
             ([true, true], Some(other)) => self.contacts.set_two([other, contact]),
@@ -356,10 +369,10 @@ impl Continuous {
             return Ok(log.tick);
         }
         let from = self.ball.position;
-        let n_events = self.pass(acceleration, &mut log);
+        self.pass(acceleration, &mut log);
         self.look_around();
         // Where a clearing was found, every plane near was checked but the faces that support the ball, which it was put onto.
-        if self.clearing.is_none() && (1 < n_events || !self.contacts.is_empty()) {
+        if self.clearing.is_none() {
             self.guard(from, &mut log);
         }
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
