@@ -24,7 +24,10 @@ use noise::Noise;
 use std::process::ExitCode;
 use std::sync::Arc;
 
-/// Looks for a ball in a wall, beyond one, or richer in energy than before.
+/// Looks for a ball in a wall, beyond one, or richer in energy than before. Exit status 1 if there was a fault.
+///
+/// Ten million ticks take about a minute. The same seed plays the same scenes. In mazes the ends of ticks are judged, in irregular
+/// scenes the whole way.
 #[derive(Parser)]
 struct Arguments {
     /// Ticks in all.
@@ -296,23 +299,28 @@ fn main() -> Result<ExitCode, Box<dyn std::error::Error>> {
         }
     }
     bar.finish_and_clear();
-    println!("ticks               {} in {} scenes", totals.n_ticks, totals.n_scenes);
+    println!("ticks                            {} in {} scenes", totals.n_ticks, totals.n_scenes);
     println!(
-        "hits                {} ({} of corners, {} ended in rest); {} rolls in irregular scenes",
+        "hits                             {} ({} of corners, {} ended in rest), {} rolls in irregular scenes",
         totals.n_hits, totals.n_corner_hits, totals.n_rests, totals.n_rolls
     );
-    println!("penetrations > {LIMIT:e} r {} (deepest {:e} r)", totals.n_penetrations, totals.deepest);
-    println!("tunnels             {}", totals.n_tunnels);
-    println!("not finite          {}", totals.n_not_finite);
-    println!("energy gains > {LIMIT:e} {}", totals.n_energy_gains);
-    println!("corrected at the end {}", totals.n_corrected);
-    println!("recovered           {}", totals.n_recovered);
+    let count = |what: &str, n: u64| println!("{what:32} {n}");
+    count("in a wall, deeper than 1e-9 r", totals.n_penetrations);
+    println!("  deepest                        {:e} r", totals.deepest);
+    count("through a wall", totals.n_tunnels);
+    count("not finite", totals.n_not_finite);
+    count("richer in energy by 1e-9", totals.n_energy_gains);
+    count("corrected by the last check", totals.n_corrected);
+    count("placed in a wall", totals.n_recovered);
+    count("time dropped, restitution < 0.99", totals.n_dropped_inelastic);
     println!(
-        "dropped time        in {} ticks, {:.6} s in all; {} of them with a restitution below {ELASTIC}",
-        totals.n_dropped, totals.dropped_s, totals.n_dropped_inelastic
+        "  with more, which may be        {} ticks, {:.6} s",
+        totals.n_dropped - totals.n_dropped_inelastic,
+        totals.dropped_s
     );
     if let Some(fault) = &totals.first_fault {
-        println!("first fault         {fault}");
+        println!("first fault                      {fault}");
     }
+    println!("{} faults", totals.n_faults());
     Ok(if totals.n_faults() == 0 { ExitCode::SUCCESS } else { ExitCode::from(1) })
 }

@@ -412,10 +412,11 @@ fn rank(feature: &Feature) -> (u8, f64, f64) {
     }
 }
 
-/// What a circle on a path touches first within `until_s`; a circle that has just left the point `left` does
-/// not touch it at the start.
+/// What a circle on a path touches first within `until_s`.
 ///
-/// The search goes through the groups that oppose the motion, the faster coordinate first. Needs finite numbers.
+/// `left` is the point that the circle has just lifted off from, if any: a touch of it at the very start is none. The search goes
+/// through the groups that oppose the motion, the faster coordinate first. Finite numbers, and an `until_s` of 0 or more, are
+/// expected and not checked.
 pub fn first(
     planes: &SortedPlanes,
     path: &Path,

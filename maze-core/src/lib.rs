@@ -19,13 +19,13 @@
 //!
 //! ```
 //! use std::sync::Arc;
-//! use maze_core::{Ball, BallSpec, Engine, Facing, Plane, Published, SortedPlanes, Tilt, gravity};
+//! use maze_core::{Ball, BallSpec, Continuous, Engine, Facing, Plane, SortedPlanes, Tilt, gravity};
 //! use nalgebra::Vector2;
 //!
 //! let wall = Plane { facing: Facing::MinusX, offset: 5.0, start: -1.0, end: 1.0 };
 //! let planes = Arc::new(SortedPlanes::new([wall])?);
 //! let ball = Ball { position: Vector2::zeros(), velocity: Vector2::zeros() };
-//! let mut engine = Published::new(planes, BallSpec::default(), ball)?;
+//! let mut engine = Continuous::new(planes, BallSpec::default(), ball, 0.03)?;
 //!
 //! let tilt = Tilt::from_half_tangents(0.1, 0.0); // the board's +x side is down
 //! let acceleration = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
@@ -74,7 +74,9 @@ pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
 pub use blocks::{Blocks, BlocksError};
 pub use draft::SectionError;
-pub use engine::{BallState, Continuous, Engine, Hit, Observer, Published, Tick};
+pub use engine::{
+    BallState, Contact, Contacts, Continuous, Engine, Hit, Observer, Published, RolledArc, Tick,
+};
 pub use gravity::Tilt;
 pub use layout::Layout;
 pub use maze::{Bounds, FaceNote, Maze};

@@ -73,6 +73,9 @@ impl Facing {
 }
 
 /// A wall face: the points with `offset` along the normal's axis and `start..=end` along the other.
+///
+/// It stops a ball from its front only; from behind a ball passes. So give every wall all its faces: a block is four planes that
+/// look outwards, a wall without thickness two at one place that look in opposite directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
     /// Where it looks.

@@ -193,7 +193,7 @@ pub const BARS: &[Bar] = &[
         longest_tick_s: ANY_TICK,
         value: |m| Some(m.penetration_max),
         limit: EXACT,
-        reason: "0 but for rounding",
+        reason: "0 but for the contact tolerances (8e-12 radii) and rounding",
     },
     Bar {
         metric: "tunnels",

@@ -18,21 +18,22 @@ use nalgebra::Vector2;
 /// What happened within one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
-    /// Steps that the tick was walked in; 1 when the ball was slow.
+    /// Steps that the tick was walked in; 1 when the ball was slow, and for the exact engine always.
     pub n_steps: u32,
-    /// Contacts that changed the velocity.
+    /// Hits. One may leave the velocity as it is: a ball that is set down on a wall meets it at speed 0.
     pub n_hits: u32,
     /// Those of them that were corners; always 0 for an engine that knows faces only.
     pub n_corner_hits: u32,
-    /// Bounces that ended in rest.
+    /// Hits after which the ball no longer bounces off the wall; it may still slide along it.
     pub n_rests: u32,
-    /// Whether the ball began inside a wall and was put outside.
+    /// Whether the ball was placed inside a wall and was pushed out. Where it has no room an overlap remains, which
+    /// `corrected_overlap` shows in every tick.
     pub recovered: bool,
     /// Largest normal speed of a hit (units/s): how loud it was.
     pub hardest_hit_speed: f64,
-    /// Steps that ended with a wall still overlapped, because the bound on contacts was reached.
+    /// Steps of the published engine that ended with a wall still overlapped, because the bound on contacts was reached.
     pub n_unresolved: u32,
-    /// Deepest penetration met before push-out (units).
+    /// Deepest penetration met before push-out (units); for the exact engine only that of a ball that was placed in a wall.
     pub deepest_penetration: f64,
     /// Time that was not simulated because a bound was reached (s).
     pub dropped_s: f64,
@@ -58,9 +59,11 @@ pub struct Hit {
 
 /// Watches a tick: each stretch of motion and each hit, in the order in which they happen.
 ///
-/// A function of a [`Hit`] is an observer that is shown hits alone; `()` is one that is shown nothing.
+/// A function of a [`Hit`] is an observer that is shown hits alone; `()` is one that is shown nothing. Not shown are a push-out
+/// ([`Tick::recovered`], [`Tick::corrected_overlap`]) and the speed that rolling resistance takes at the end of a tick.
 pub trait Observer {
-    /// The centre moved along a path for a time (s); a ball at rest does so on a path without velocity and acceleration.
+    /// The centre moved along a path for a time (s), which may be 0: in flight, along a face (the acceleration is then that along
+    /// it), or at rest (without velocity and acceleration).
     fn flight(&mut self, path: &Path, duration_s: f64) {
         let _ = (path, duration_s);
     }
@@ -70,7 +73,7 @@ pub trait Observer {
         let _ = (arc, duration_s);
     }
 
-    /// The velocity was changed by a wall.
+    /// The ball met a wall.
     fn hit(&mut self, hit: &Hit) {
         let _ = hit;
     }
@@ -123,8 +126,9 @@ impl<O: Observer + ?Sized> Log<'_, O> {
 
 /// A way to compute the ball's motion.
 pub trait Engine {
-    /// Advances by one tick under a constant acceleration in the maze plane (units/s²), and shows an observer what happens.
-    /// An engine that cannot tell shows nothing.
+    /// Advances by one tick under a constant projected gravity (units/s²), and shows an observer what happens. The ball's
+    /// acceleration, which the observer is shown too, is this times [`BallSpec::rolling`]. An engine that cannot tell shows
+    /// nothing.
     ///
     /// # Errors
     /// An acceleration that is not finite, or one that makes the velocity so; the ball stays as it was.
@@ -145,7 +149,8 @@ pub trait Engine {
     /// Where the ball is now.
     fn ball(&self) -> Ball;
 
-    /// Puts the ball somewhere else.
+    /// Puts the ball somewhere else. It touches nothing until the next tick, which pushes it out of walls that it is in; what it
+    /// lies on it then meets as a hit.
     ///
     /// # Errors
     /// A position or velocity that is not finite; the ball stays as it was.

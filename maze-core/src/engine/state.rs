@@ -14,12 +14,12 @@ pub struct Contact {
     pub normal: Vector2<f64>,
 }
 
-/// At most two active contacts; with two, the ball is at rest, or they are opposite and it moves along both. More than two are
-/// redundant in the plane.
+/// At most two active contacts; with two, the ball is at rest. More than two are redundant in the plane. Of two opposite ones, in a
+/// gap without play, only the pressed one is kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contacts([Option<Contact>; 2]); // Invariant: the second is `None` where the first is.
 
-/// A ball and what supports it: all that the motion of the next tick depends on, once the ball has moved.
+/// A ball and what supports it: all that the motion of the next tick depends on.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BallState {
     /// Where it is and how it moves.
@@ -32,6 +32,11 @@ impl Contacts {
     /// Each of them.
     pub fn iter(&self) -> impl Iterator<Item = Contact> {
         self.0.into_iter().flatten()
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.iter().count()
     }
 
     /// Whether nothing supports the ball.

@@ -44,8 +44,9 @@ impl Continuous {
     pub(super) fn guard<O: Observer + ?Sized>(&mut self, from: Vector2<f64>, log: &mut Log<O>) {
         let (centre, radius) = (self.ball.position, self.radius());
         let within = radius - tolerance::overlap(radius, centre);
-        if self.planes.any_within(centre, within, |plane| !passes_from_behind(plane, [from, centre], radius))
-        {
+        let velocity = self.ball.velocity;
+        let is_fault = |plane: &Plane| !passes_from_behind(plane, [from, centre], velocity, radius);
+        if self.planes.any_within(centre, within, is_fault) {
             log.tick.corrected_overlap = self.depenetrate();
             self.contacts.clear();
         }
@@ -53,14 +54,20 @@ impl Continuous {
 }
 
 /// Whether a ball that overlaps a face is one that passes it from behind. A face has no back.
-fn passes_from_behind(plane: &Plane, [from, to]: [Vector2<f64>; 2], radius: f64) -> bool {
+fn passes_from_behind(
+    plane: &Plane,
+    [from, to]: [Vector2<f64>; 2],
+    velocity: Vector2<f64>,
+    radius: f64,
+) -> bool {
+    let axis = plane.facing.axis();
+    let [before, after] = [from, to].map(|centre| (centre[axis] - plane.offset) * plane.facing.sign());
     let was_outside =
         radius - tolerance::touch(radius, from) <= (from - contact::closest_point(from, plane)).norm();
     if !was_outside {
-        return true;
+        // On its way through; one that does not move on was placed where it has no room.
+        return before < 0.0 || 0.0 < velocity[axis] * plane.facing.sign();
     }
-    let axis = plane.facing.axis();
-    let [before, after] = [from, to].map(|centre| (centre[axis] - plane.offset) * plane.facing.sign());
     if 0.0 <= before || after < 0.0 {
         return before < 0.0;
     }
@@ -128,9 +135,28 @@ mod tests {
     }
 
     #[test]
+    fn a_ball_that_is_placed_where_it_has_no_room_is_reported_in_every_tick() {
+        let planes = [(Facing::PlusY, 0.0), (Facing::MinusY, 0.5)].map(|(facing, offset)| Plane {
+            facing,
+            offset,
+            start: -5.0,
+            end: 5.0,
+        });
+        let planes = Arc::new(SortedPlanes::new(planes).unwrap());
+        let start = Ball::at(Vector2::new(0.0, 0.25));
+        let mut engine = Continuous::new(planes, BallSpec::default(), start, 0.03).unwrap();
+        for _ in 0..9 {
+            let tick = engine.tick(Vector2::new(1.0, -4.0)).unwrap();
+            assert!(0.1 < tick.corrected_overlap, "{tick:?}");
+        }
+    }
+
+    #[test]
     fn a_ball_that_comes_around_the_end_of_a_face_does_not_pass_it() {
         let face = Plane { facing: Facing::PlusY, offset: 0.0, start: 0.0, end: 5.0 };
-        let passes = |from: [f64; 2], to: [f64; 2]| passes_from_behind(&face, [from.into(), to.into()], 0.35);
+        let up = Vector2::new(0.0, 1.0);
+        let passes =
+            |from: [f64; 2], to: [f64; 2]| passes_from_behind(&face, [from.into(), to.into()], up, 0.35);
         assert!(passes([1.0, -1.0], [1.0, 0.1]) && passes([1.0, -0.1], [1.0, 0.2]));
         assert!(!passes([-1.0, -0.5], [0.1, 0.3]) && !passes([1.0, 0.5], [1.0, -0.1]));
     }

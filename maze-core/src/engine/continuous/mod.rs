@@ -40,7 +40,8 @@ struct Recent {
 }
 
 /// The exact engine. Its motion does not depend on the tick's length (but for rolling resistance, which is taken at the end
-/// of each tick, and for rounding), nor its cost on the speed. The same inputs give the same bits on every platform.
+/// of each tick, and for rounding). There are no substeps: the cost of a tick grows with what the ball touches in it, not with the
+/// way it goes. The same inputs give the same bits on every platform.
 #[derive(Clone, Debug)]
 #[repr(C)] // What the usual tick needs comes first, in two cache lines.
 pub struct Continuous {
@@ -95,7 +96,8 @@ impl Continuous {
         Self { is_cached: false, clearing: None, ..self }
     }
 
-    /// The ball and what supports it.
+    /// The ball and what supports it, as at the end of the last tick; no contacts after [`Continuous::new`] and
+    /// [`Engine::place`] until the first one. To save an engine and go on to the bit, clone it.
     pub fn state(&self) -> BallState {
         BallState { ball: self.ball, contacts: self.contacts }
     }
@@ -309,12 +311,11 @@ impl Continuous {
         }
     }
 
-    /// Goes from event to event until the tick is over; returns how many there were.
-    fn pass<O: Observer + ?Sized>(&mut self, acceleration: Vector2<f64>, log: &mut Log<O>) -> u32 {
+    /// Goes from event to event until the tick is over. Contacts are those that the acceleration presses.
+    fn pass<O: Observer + ?Sized>(&mut self, acceleration: Vector2<f64>, log: &mut Log<O>) {
         let mut left_s = self.tick_s;
         let mut recent = Recent::default();
-        for n_events in 1..=MAX_EVENTS {
-            self.contacts.settle(acceleration);
+        for _ in 0..MAX_EVENTS {
             left_s -= match self.contacts.first() {
                 _ if self.contacts.are_two() => self.rest(left_s, log),
                 Some(&Contact { feature: Feature::Point(point), normal }) => {
@@ -322,12 +323,12 @@ impl Continuous {
                 }
                 _ => self.fly(acceleration, left_s, &mut recent, log),
             };
+            self.contacts.settle(acceleration);
             if left_s <= 0.0 {
-                return n_events;
+                return;
             }
         }
         log.tick.dropped_s = left_s;
-        MAX_EVENTS
     }
 
     /// Stays where it is.
