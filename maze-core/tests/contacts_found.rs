@@ -115,6 +115,15 @@ fn a_ball_between_two_opposite_corners_leaves_where_it_is_pulled() {
 }
 
 #[test]
+fn a_ball_that_is_pressed_into_a_slit_of_a_ten_billionth_rests_between_its_edges() {
+    let mut planes = block([-0.9, 0.0], [-0.9, -0.35]);
+    planes.extend(block([7.0e-11, 0.9], [-0.9, -0.35]));
+    let scene = Scene::new(planes, [0.0, 0.0], [0.0, 0.0], [1.0e-17, -0.04]);
+    let (ball, ticks) = scene.run(0.9);
+    assert!(ball.velocity.norm() < 1.0e-12 && ticks.iter().all(|tick| tick.n_hits < 10), "{ball:?}");
+}
+
+#[test]
 fn a_ball_that_is_pressed_along_one_normal_of_two_rests_on_both() {
     let mut planes = block([-1.4, -1.243959964769095], [0.5168876505938718, 0.7]);
     planes.extend(block([-0.3794370867597898, -0.2], [-0.1, 0.09003707567865266]));

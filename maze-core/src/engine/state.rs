@@ -1,5 +1,6 @@
 //! The state of a ball: position, velocity, and the contacts that support it.
 
+use super::collision::are_opposite;
 use crate::ball::Ball;
 use crate::impact::Feature;
 use crate::tolerance;
@@ -98,14 +99,13 @@ impl Contacts {
 /// Which of two touched features an acceleration presses a ball onto that is at rest.
 ///
 /// With a = -(α n₁ + β n₂) it is held by both where α and β are 0 or more. Else the contact with the negative coefficient
-/// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Features in one line,
-/// where α and β are not determined, never hold it together.
+/// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Of opposite features, where
+/// α and β are not determined, only the one that is pressed more holds it.
 pub(super) fn presses(acceleration: Vector2<f64>, one: Vector2<f64>, two: Vector2<f64>) -> [bool; 2] {
     let alone = [one, two].map(|normal| acceleration.dot(&normal) < 0.0);
     let cross = one.perp(&two);
-    if cross.abs() < tolerance::PASSING {
-        // Of neighbours on a floor the later one supports the ball, of opposite features the one that is pressed more.
-        let keeps_one = one.dot(&two) < 0.0 && acceleration.dot(&one) < acceleration.dot(&two);
+    if are_opposite(one, two) {
+        let keeps_one = acceleration.dot(&one) < acceleration.dot(&two);
         return [alone[0] && keeps_one, alone[1] && !keeps_one];
     }
     let rounding = tolerance::CONE * acceleration.norm();
@@ -146,9 +146,15 @@ mod tests {
     }
 
     #[test]
-    fn of_neighbours_on_a_floor_the_later_one_supports_the_ball() {
-        let (one, two) = (contact(0.0, 1.0), contact(1.0e-8, 1.0));
+    fn of_neighbours_on_a_floor_the_one_ahead_supports_the_ball() {
+        let (one, two) = (contact(0.0, 1.0), contact(-1.0e-8, 1.0));
         assert_eq!(presses(Vector2::new(0.1, -1.0), one.normal, two.normal), [false, true]);
+        assert_eq!(presses(Vector2::new(-0.1, -1.0), one.normal, two.normal), [true, false]);
+        // But into the pit between them.
+        assert_eq!(presses(Vector2::new(5.0e-9, -1.0), one.normal, two.normal), [true, true]);
+        // Two at one place.
+        let at_one_place = presses(Vector2::new(0.1, -1.0), one.normal, one.normal);
+        assert_eq!(at_one_place.into_iter().filter(|presses| *presses).count(), 1);
     }
 
     #[test]
