@@ -129,7 +129,7 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
     touches_point(path, radius, point, horizon_s, false)
 }
 
-/// [`corner`], for a circle that has just left the point if `has_left`: what rounding shows of it at the start is no touch.
+/// [`corner`], for a circle that has just left the point if `has_left`: what is no deeper than a contact is at the start no touch.
 fn touches_point(
     path: &Path,
     radius: f64,
@@ -191,7 +191,9 @@ fn touches_point(
         };
         // A slow approach is a graze only if the path does not lead deeper before it turns.
         let is_deep = excess(to) < -graze;
-        ((is_deep || is_touch(time_s)) && !(has_left && time_s == 0.0)).then_some(time_s)
+        let is_known =
+            has_left && time_s == 0.0 && -2.0 * radius * tolerance::snap(radius, path.position) <= excess(to);
+        ((is_deep || is_touch(time_s)) && !is_known).then_some(time_s)
     })
 }
 

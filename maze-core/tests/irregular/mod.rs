@@ -236,14 +236,14 @@ pub(crate) fn depth(planes: &[Plane], centre: Vector2<f64>, radius: f64) -> f64 
     radius - nearest.sqrt()
 }
 
-/// Whether a point lies in no wall: the first face on a ray towards +x looks back at it.
+/// Whether a point lies in no wall: a ray towards +x leaves as many boxes as it enters, and then meets the room's side.
 fn is_free(planes: &[Plane], centre: Vector2<f64>) -> bool {
-    // Along a ray towards +x: the first face that is crossed must look back.
-    let crossed = planes.iter().filter(|plane| {
+    let is_crossed = |plane: &&Plane| {
         plane.facing.axis() == 0 && centre.x < plane.offset && plane.start <= centre.y && centre.y < plane.end
-    });
-    let first = crossed.min_by(|a, b| a.offset.total_cmp(&b.offset));
-    first.is_some_and(|plane| plane.facing == Facing::MinusX)
+    };
+    let (n_left, n_entered): (Vec<&Plane>, Vec<&Plane>) =
+        planes.iter().filter(is_crossed).partition(|plane| plane.facing == Facing::PlusX);
+    n_left.len() + 1 == n_entered.len()
 }
 
 impl Scene {

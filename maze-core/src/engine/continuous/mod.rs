@@ -35,7 +35,7 @@ const PATIENCE: u32 = 8;
 struct Recent {
     /// The last hit: where the ball was, and what it touched.
     hit: Option<(Vector2<f64>, Contact)>,
-    /// The point that the ball has just lifted off from.
+    /// The point that the ball has just lifted off from, or passes.
     left: Option<Vector2<f64>>,
 }
 
@@ -244,6 +244,12 @@ impl Continuous {
             _ => self.contacts.clear(),
         }
         recent.hit = Some((position, contact));
+        // Through a gap that is too narrow by a graze the ball passes: the point on the other side is not hit again here.
+        if let Some(Contact { feature: Feature::Point(point), normal: opposite }) = other
+            && collision::are_opposite(opposite, normal)
+        {
+            recent.left = Some(point);
+        }
         log.tick.n_rests += u32::from(outcome.rests_on[0]);
         log.tick.n_corner_hits += u32::from(matches!(feature, Feature::Point(_)));
         let point = feature.contact_point(position);
