@@ -16,9 +16,9 @@ use crate::tolerance::{self, TANGENT};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces from speed v end in rest
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face from speed v end in rest
 /// after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998 from up to
-/// 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses nothing may have more; the time that is left is dropped and reported.
+/// 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses little may have more between near walls; the time that is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 4096;
 
 /// Longest tick (s).
