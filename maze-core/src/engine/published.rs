@@ -50,7 +50,7 @@ impl Published {
     }
 
     /// Moves by `step_s`, then resolves what is overlapped.
-    fn step(&mut self, step_s: f64, log: &mut Log<dyn Observer + '_>) {
+    fn step<O: Observer + ?Sized>(&mut self, step_s: f64, log: &mut Log<O>) {
         self.ball.position += self.ball.velocity * step_s;
         for _ in 0..MAX_CONTACTS_PER_STEP {
             let Some(contact) = self.next_contact() else { return };
@@ -79,11 +79,12 @@ fn steps_for(displacement: f64, radius: f64) -> (u32, f64) {
     (whole + u32::from(f64::from(whole) < wanted), 0.0)
 }
 
-impl Engine for Published {
-    fn tick_observed(
+impl Published {
+    /// A tick, for observers of any kind.
+    fn advance_tick<O: Observer + ?Sized>(
         &mut self,
         acceleration: Vector2<f64>,
-        observer: &mut dyn Observer,
+        observer: &mut O,
     ) -> Result<Tick, OutOfRange> {
         let velocity = self.ball.velocity + acceleration * (self.spec.rolling * Self::TICK_S);
         let is_finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
@@ -111,6 +112,20 @@ impl Engine for Published {
         }
         self.ball.velocity = self.spec.slowed(self.ball.velocity, Self::TICK_S);
         Ok(log.tick)
+    }
+}
+
+impl Engine for Published {
+    fn tick_observed(
+        &mut self,
+        acceleration: Vector2<f64>,
+        observer: &mut dyn Observer,
+    ) -> Result<Tick, OutOfRange> {
+        self.advance_tick(acceleration, observer)
+    }
+
+    fn tick(&mut self, acceleration: Vector2<f64>) -> Result<Tick, OutOfRange> {
+        self.advance_tick(acceleration, &mut ())
     }
 
     fn ball(&self) -> Ball {
