@@ -14,7 +14,7 @@ mod noise;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use irregular::{Scene, depth};
+use irregular::{Scene, depth, rounding};
 use maze_core::engine::RolledArc;
 use maze_core::impact::Path;
 use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Observer, Plane};
@@ -48,12 +48,6 @@ const TICK_S: f64 = 0.03;
 
 /// Deeper than this (radii) is a penetration; richer by more than this fraction is an energy gain. Both far above rounding.
 const LIMIT: f64 = 1.0e-9;
-
-/// What rounding may add to a depth: four to eight ulps of the ball's largest coordinate, which count far from the origin (at
-/// 10⁵ units 9e-11 units).
-fn rounding(position: Vector2<f64>) -> f64 {
-    4.0 * f64::EPSILON * position.amax()
-}
 
 const TICKS_PER_MAZE: u64 = 50_000;
 const TICKS_PER_SCENE: u64 = 1000;

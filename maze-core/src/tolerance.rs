@@ -43,7 +43,7 @@ pub(crate) const PASSING: f64 = 5.0e-7;
 pub(crate) const CONE: f64 = 4.0e-15;
 
 /// A direction on an arc that lies behind the ball by this little (sine of half the angle) is where it is: some roundings of 1.
-pub(crate) const BEHIND: f64 = 8.0 * f64::EPSILON;
+pub(crate) const ARC_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// An energy this small against that of the whole arc is taken for one that just passes the top: a ball at exactly the speed
 /// that would come to rest there needs infinitely long.

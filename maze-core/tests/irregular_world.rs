@@ -7,7 +7,7 @@ mod irregular;
 mod noise;
 
 use images::{Image, MIRRORED, TURNED};
-use irregular::{Scene, depth};
+use irregular::{Scene, depth, rounding};
 use maze_core::impact::Path;
 use maze_core::{Ball, BallSpec, Continuous, Engine, Hit, Observer, Plane, Radius, SortedPlanes, Tick};
 use nalgebra::Vector2;
@@ -29,8 +29,7 @@ fn a_ball_is_never_in_a_wall_and_gains_no_energy() {
             let before = engine.ball();
             let tick = engine.tick(pull).unwrap();
             let after = engine.ball();
-            // Four times the spacing of floats there, and what is promised.
-            let limit = 1.0e-9 * radius + 4.0 * f64::EPSILON * after.position.amax();
+            let limit = 1.0e-9 * radius + rounding(after.position);
             let depth = depth(&scene.planes, after.position, radius);
             assert!(
                 depth <= limit,

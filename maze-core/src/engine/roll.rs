@@ -11,7 +11,7 @@ use crate::impact::Feature;
 use crate::plane::Plane;
 use crate::roots::bracketed_root;
 use crate::sorted_planes::{SortedPlanes, WIDENED};
-use crate::tolerance::{self, BEHIND, LEAST_ENERGY, PASSING, TANGENT};
+use crate::tolerance::{self, ARC_ROUNDING, LEAST_ENERGY, PASSING, TANGENT};
 use nalgebra::Vector2;
 
 /// Why a roll ended.
@@ -128,6 +128,11 @@ impl Pivot<'_> {
         })
     }
 
+    /// Whether a feature at a gap (units) from the ball is touched where the ball is now.
+    fn is_touched(&self, gap: f64, centre: Vector2<f64>) -> bool {
+        -tolerance::touch(self.radius, centre) < gap && gap <= tolerance::snap(self.radius, centre)
+    }
+
     /// Where the ball touches a face. A face that ends in the point is touched where the arc ends.
     fn touch_face(&self, from: Vector2<f64>, arc: &Arc, plane: Plane) -> Option<Touch> {
         let (axis, outward) = (plane.facing.axis(), plane.facing.normal());
@@ -149,7 +154,7 @@ impl Pivot<'_> {
                 || along == plane.end && 0.0 < way
         };
         let is_over = |along: f64, slack: f64| plane.start - slack <= along && along <= plane.end + slack;
-        if -tolerance::touch(self.radius, centre) < gap && gap <= snap {
+        if self.is_touched(gap, centre) {
             let along = centre[1 - axis];
             if way.dot(&outward) <= 0.0 && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
                 return Some(Touch { along: arc.begin, normal: from, feature, distance: level });
@@ -186,12 +191,10 @@ impl Pivot<'_> {
         }
         let from_point = centre - point;
         let gap = from_point.norm() - self.radius;
-        let is_touched =
-            -tolerance::touch(self.radius, centre) < gap && gap <= tolerance::snap(self.radius, centre);
         // Past one on the other side the ball goes on, as through any gap that is too narrow by a graze.
         let slowest = if from.dot(&from_point) < 0.0 { PASSING } else { TANGENT };
         let approach = -(tangent(from) * arc.side).dot(&from_point);
-        let is_hit = is_touched && slowest * self.radius < approach;
+        let is_hit = self.is_touched(gap, centre) && slowest * self.radius < approach;
         is_hit.then_some(Touch { along: arc.begin, normal: from, feature, distance })
     }
 }
@@ -257,7 +260,7 @@ impl Arc {
     fn ahead(&self, normal: Vector2<f64>) -> Option<f64> {
         let along = sine(self.top, normal) * self.side;
         // Below the middle nothing presses the ball onto the point.
-        let is_ahead = self.begin - BEHIND <= along && 0.0 <= self.top.dot(&normal);
+        let is_ahead = self.begin - ARC_ROUNDING <= along && 0.0 <= self.top.dot(&normal);
         is_ahead.then_some(if along < self.begin { self.begin } else { along })
     }
 

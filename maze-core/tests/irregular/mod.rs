@@ -224,6 +224,12 @@ impl Builder {
     }
 }
 
+/// What rounding may add to a depth: four to eight ulps of the ball's largest coordinate, which count far from the origin (at
+/// 10⁵ units 9e-11 units).
+pub(crate) fn rounding(position: Vector2<f64>) -> f64 {
+    4.0 * f64::EPSILON * position.amax()
+}
+
 /// How deep a circle is in the faces, by a plain look at each; negative where it is clear of them.
 pub(crate) fn depth(planes: &[Plane], centre: Vector2<f64>, radius: f64) -> f64 {
     let mut nearest = f64::INFINITY;

@@ -16,9 +16,10 @@ use crate::tolerance::{self, TANGENT};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face from speed v end in rest
-/// after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998 from up to
-/// 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses little may have more between near walls; the time that is left is dropped and reported.
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face from speed v end
+/// in rest after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998
+/// from up to 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses little may have more between near walls; the time that
+/// is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 4096;
 
 /// Longest tick (s).
@@ -112,9 +113,11 @@ impl Continuous {
         Path { position, velocity, acceleration: self.contacts.along(acceleration) }
     }
 
-    /// When and off which end the ball slides off the face that supports it.
-    fn slides_off(&self, path: &Path) -> Option<(f64, Vector2<f64>)> {
-        let Some(&Contact { feature: Feature::Face(face), .. }) = self.contacts.first() else { return None };
+    /// When and along which axis the ball slides off the face that supports it, and its contact with the end point then.
+    fn slides_off(&self, path: &Path) -> Option<(f64, usize, Contact)> {
+        let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.first() else {
+            return None;
+        };
         let axis = 1 - face.facing.axis();
         let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
@@ -123,7 +126,8 @@ impl Continuous {
             (Some(upper), Some(lower)) if lower.0 < upper.0 => lower,
             (upper, lower) => upper.or(lower)?,
         };
-        Some((time_s, face.facing.point(face.offset, end)))
+        let feature = Feature::Point(face.facing.point(face.offset, end));
+        Some((time_s, axis, Contact { feature, normal }))
     }
 
     /// Moves along a path; a face that supports the ball keeps it exactly at its radius.
@@ -147,16 +151,13 @@ impl Continuous {
         let path = self.path(acceleration);
         let impact = impact::first(&self.planes, &path, self.radius(), left_s, recent.left.take());
         let until_s = impact.map_or(left_s, |impact| impact.time_s);
-        if let Some((time_s, point)) = self.slides_off(&path)
+        if let Some((time_s, axis, on_end)) = self.slides_off(&path)
             && time_s < until_s
         {
             self.advance(&path, time_s, log);
             // Over the very end the ball stands on the point there: it lifts off at once if it is fast, or rolls around it.
-            if let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.first() {
-                let axis = 1 - face.facing.axis();
-                self.ball.position[axis] = point[axis];
-                self.contacts.set(Contact { feature: Feature::Point(point), normal });
-            }
+            self.ball.position[axis] = on_end.feature.contact_point(self.ball.position)[axis];
+            self.contacts.set(on_end);
             return time_s;
         }
         self.advance(&path, until_s, log);
@@ -385,9 +386,7 @@ impl Continuous {
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(log.tick)
     }
-}
 
-impl Continuous {
     /// A tick, for observers of any kind: what is not observed costs nothing.
     #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
     fn advance_tick<O: Observer + ?Sized>(
