@@ -113,11 +113,9 @@ impl Continuous {
         Path { position, velocity, acceleration: self.contacts.along(acceleration) }
     }
 
-    /// When and along which axis the ball slides off the face that supports it, and its contact with the end point then.
-    fn slides_off(&self, path: &Path) -> Option<(f64, usize, Contact)> {
-        let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.first() else {
-            return None;
-        };
+    /// When and off which end the ball slides off the face that supports it.
+    fn slides_off(&self, path: &Path) -> Option<(f64, Vector2<f64>)> {
+        let Some(&Contact { feature: Feature::Face(face), .. }) = self.contacts.first() else { return None };
         let axis = 1 - face.facing.axis();
         let (along, speed, pull) = (path.position[axis], path.velocity[axis], path.acceleration[axis]);
         let upper = falls_through_zero(face.end - along, -speed, -pull).map(|time_s| (time_s, face.end));
@@ -126,8 +124,7 @@ impl Continuous {
             (Some(upper), Some(lower)) if lower.0 < upper.0 => lower,
             (upper, lower) => upper.or(lower)?,
         };
-        let feature = Feature::Point(face.facing.point(face.offset, end));
-        Some((time_s, axis, Contact { feature, normal }))
+        Some((time_s, face.facing.point(face.offset, end)))
     }
 
     /// Moves along a path; a face that supports the ball keeps it exactly at its radius.
@@ -151,13 +148,16 @@ impl Continuous {
         let path = self.path(acceleration);
         let impact = impact::first(&self.planes, &path, self.radius(), left_s, recent.left.take());
         let until_s = impact.map_or(left_s, |impact| impact.time_s);
-        if let Some((time_s, axis, on_end)) = self.slides_off(&path)
+        if let Some((time_s, point)) = self.slides_off(&path)
             && time_s < until_s
         {
             self.advance(&path, time_s, log);
             // Over the very end the ball stands on the point there: it lifts off at once if it is fast, or rolls around it.
-            self.ball.position[axis] = on_end.feature.contact_point(self.ball.position)[axis];
-            self.contacts.set(on_end);
+            if let Some(&Contact { feature: Feature::Face(face), normal }) = self.contacts.first() {
+                let axis = 1 - face.facing.axis();
+                self.ball.position[axis] = point[axis];
+                self.contacts.set(Contact { feature: Feature::Point(point), normal });
+            }
             return time_s;
         }
         self.advance(&path, until_s, log);
