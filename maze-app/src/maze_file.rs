@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::{files, picture};
+use maze_core::import::text::TextOptions;
 use maze_core::{AssembleOptions, Layout, Maze, Stage, export, extrude, import};
 use std::path::Path;
 
@@ -70,7 +71,7 @@ impl From<Maze> for Loaded {
 }
 
 /// Reads a maze file; the kind is told by its name's ending.
-pub(crate) fn load(path: &Path, options: &AssembleOptions) -> Result<Loaded, Failure> {
+pub(crate) fn load(path: &Path, options: &AssembleOptions, signs: &TextOptions) -> Result<Loaded, Failure> {
     let kind = Kind::of_name(path, &KINDS)?;
     let progress = Progress::of_file(path);
     progress.tell("reading");
@@ -86,6 +87,9 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions) -> Result<Loaded, Fai
     }
     let read = move || -> Result<Loaded, String> {
         match kind {
+            _ if kind != Kind::Text && !signs.is_empty() => {
+                Err(format!("text signs are for .txt files: a .{} has none", kind.ending()))
+            }
             Kind::Obj => {
                 let mesh = import::obj::read(&bytes).map_err(|error| error.to_string())?;
                 // The bytes are gone before the maze is put together: both are large.
@@ -100,12 +104,12 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions) -> Result<Loaded, Fai
             _ if options.scale.is_some() => {
                 Err(format!("a scale is for .obj files: a .{} has cells", kind.ending()))
             }
-            Kind::Svg => svg(&bytes, options),
             Kind::Text => {
-                let blocks = import::text::read(&bytes).map_err(|error| error.to_string())?;
-                let maze = blocks.maze(options).map_err(|error| error.to_string())?;
-                Ok(Loaded { maze, found: None })
+                let text = import::text::read(&bytes, signs).map_err(|error| error.to_string())?;
+                let maze = text.maze(options).map_err(|error| error.to_string())?;
+                Ok(Loaded { maze, found: Some(text.found) })
             }
+            Kind::Svg => svg(&bytes, options),
             Kind::Png | Kind::Bmp => picture::maze(&bytes, options),
         }
     };

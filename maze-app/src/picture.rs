@@ -69,7 +69,10 @@ mod tests {
     #[test]
     fn png_and_bmp_of_any_depth_are_the_maze_of_the_text() {
         let options = AssembleOptions::default();
-        let expected = maze_core::import::text::read(WAY.as_bytes()).unwrap().maze(&options).unwrap();
+        let expected = maze_core::import::text::read(WAY.as_bytes(), &Default::default())
+            .unwrap()
+            .maze(&options)
+            .unwrap();
         let grey =
             GrayImage::from_fn(6 * 4, 4 * 4, |x, y| Luma([if is_wall(x / 4, y / 4) { 20 } else { 240 }]));
         let glass = RgbaImage::from_fn(6, 4, |x, y| Rgba([0, 0, 0, if is_wall(x, y) { 255 } else { 0 }]));

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::levels::{self, Level, N_LEVELS};
 use crate::maze_file::{self, Loaded};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
-use crate::sidecar::{Sidecar, parse_up_axis, radius_in_range};
+use crate::sidecar::{Sidecar, TextSigns, parse_up_axis, radius_in_range};
 use clap::Args;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
@@ -19,6 +19,35 @@ pub(crate) struct ReadArguments {
     /// Axis of an .obj that points out of the board [default: the one along which the file is flattest]
     #[arg(long, value_name = "AXIS", value_parser = parse_up_axis)]
     up: Option<UpAxis>,
+    /// What signs of a .txt mean, such as `--text wall=#X --text free=.`; keys are wall, free, start and goal
+    /// [default: found]
+    #[arg(long, value_name = "KEY=SIGNS", value_parser = parse_signs)]
+    text: Vec<(SignKey, String)>,
+}
+
+/// What signs of a text can be stated to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum SignKey {
+    Wall,
+    Free,
+    Start,
+    Goal,
+}
+
+impl SignKey {
+    const ALL: [(Self, &'static str); 4] =
+        [(Self::Wall, "wall"), (Self::Free, "free"), (Self::Start, "start"), (Self::Goal, "goal")];
+}
+
+fn parse_signs(text: &str) -> Result<(SignKey, String), String> {
+    let known = text
+        .split_once('=')
+        .filter(|(_, signs)| !signs.is_empty() && !signs.contains(char::is_control))
+        .and_then(|(key, signs)| {
+            let (key, _) = SignKey::ALL.into_iter().find(|(_, name)| *name == key)?;
+            Some((key, signs.to_owned()))
+        });
+    known.ok_or_else(|| "expected wall=SIGNS, free=SIGNS, start=SIGN or goal=SIGN".to_owned())
 }
 
 /// Which maze: a file, a level, or a seed.
@@ -56,7 +85,26 @@ impl ReadArguments {
     fn words(&self) -> Vec<String> {
         let radius = self.ball_radius.map(|radius| format!("--ball-radius={}", radius.units()));
         let up = self.up.map(|axis| format!("--up={}", axis.name()));
-        [radius, up].into_iter().flatten().collect()
+        let name = |key: SignKey| {
+            SignKey::ALL.into_iter().find(|(known, _)| *known == key).map_or("", |(_, name)| name)
+        };
+        let signs = self.text.iter().map(|(key, signs)| format!("--text={}={signs}", name(*key)));
+        [radius, up].into_iter().flatten().chain(signs).collect()
+    }
+
+    /// The signs that flags state; of two statements the last one counts.
+    fn signs(&self) -> TextSigns {
+        let mut stated = TextSigns::default();
+        for (key, signs) in &self.text {
+            let key = match key {
+                SignKey::Wall => &mut stated.wall,
+                SignKey::Free => &mut stated.free,
+                SignKey::Start => &mut stated.start,
+                SignKey::Goal => &mut stated.goal,
+            };
+            *key = Some(signs.clone());
+        }
+        stated
     }
 
     /// Flags win over what stands beside the file.
@@ -72,7 +120,8 @@ impl ReadArguments {
 
     /// Reads a maze file and the sidecar beside it; the kind is told by its name's ending.
     pub(crate) fn load(&self, path: &Path) -> Result<Loaded, Failure> {
-        maze_file::load(path, &self.options(&Sidecar::beside(path)?))
+        let sidecar = Sidecar::beside(path)?;
+        maze_file::load(path, &self.options(&sidecar), &self.signs().or(&sidecar.text))
     }
 
     /// The maze of a recipe.

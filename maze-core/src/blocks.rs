@@ -20,7 +20,8 @@ pub struct Blocks {
     width: usize,
     height: usize,
     wall: Vec<bool>,               // [y * width + x]
-    ends: Option<[[usize; 2]; 2]>, // free blocks: start and goal
+    ends: [Option<[usize; 2]>; 2], // free blocks: start and goal
+    has_thin_walls: bool,          // even columns and rows are walls and posts, as in a layout
 }
 
 /// Why blocks are no maze.
@@ -35,16 +36,12 @@ pub enum BlocksError {
         n_y: usize,
     },
     /// Start or goal lies beyond the walls, or the ball does not fit there.
-    #[error(
-        "line {line}, column {column}: the ball does not fit at `{name}`: expected a free place between the walls"
-    )]
+    #[error("the ball does not fit at the {name}: expected a free place between the walls")]
     NoRoomAt {
-        /// Counted from 1 at the top.
-        line: usize,
-        /// Counted from 1.
-        column: usize,
-        /// `S` or `G`.
-        name: char,
+        /// 0 for the start, 1 for the goal.
+        end: usize,
+        /// Start or goal.
+        name: &'static str,
     },
     /// Too large.
     #[error("a maze of {n_faces} wall faces: expected at most {max}", max = MAX_FACES)]
@@ -58,19 +55,24 @@ pub enum BlocksError {
 }
 
 impl Blocks {
-    /// Blocks row by row from the lowest; `ends` are start and goal as (x, y), both free.
+    /// Blocks row by row from the lowest; `ends` are start and goal as (x, y), both free, where they are known.
     ///
     /// `None` unless there are `width * height` of them, and the ends lie on free ones.
     pub(crate) fn new(
         width: usize,
         height: usize,
         wall: Vec<bool>,
-        ends: Option<[[usize; 2]; 2]>,
+        ends: [Option<[usize; 2]>; 2],
     ) -> Option<Self> {
         let is_free = |[x, y]: &[usize; 2]| *x < width && *y < height && !wall[y * width + x];
         let fits = width.checked_mul(height) == Some(wall.len());
         let fits = fits && ends.iter().flatten().all(is_free);
-        fits.then_some(Self { width, height, wall, ends })
+        fits.then_some(Self { width, height, wall, ends, has_thin_walls: false })
+    }
+
+    /// The same blocks, of which those in even columns and rows are as thin as the walls of a [`Layout`].
+    pub(crate) fn with_thin_walls(self) -> Self {
+        Self { has_thin_walls: true, ..self }
     }
 
     /// Posts, walls and corridors of a layout in turn, `2 n + 1` blocks along each axis; its doors are gaps.
@@ -87,7 +89,7 @@ impl Blocks {
             _ => true,
         };
         let wall = (0..width * height).map(|index| is_wall(index % width, index / width)).collect();
-        Self { width, height, wall, ends: None }
+        Self { width, height, wall, ends: [None; 2], has_thin_walls: true }
     }
 
     /// Blocks along x.
@@ -106,7 +108,7 @@ impl Blocks {
     }
 
     /// Start and goal as (x, y), where they are given.
-    pub fn ends(&self) -> Option<[[usize; 2]; 2]> {
+    pub fn ends(&self) -> [Option<[usize; 2]>; 2] {
         self.ends
     }
 
@@ -126,6 +128,11 @@ impl Blocks {
         [xs.collect(), ys.collect()]
     }
 
+    /// Where the k-th column or row of blocks begins, in blocks.
+    fn line(&self, k: usize) -> f64 {
+        if self.has_thin_walls { extrude::line(k) } else { to_f64(k) }
+    }
+
     /// The maze of these blocks. Its up axis is z whatever the options say.
     ///
     /// # Errors
@@ -133,7 +140,7 @@ impl Blocks {
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let [xs, ys] = self.edges();
         let of_height = |height| {
-            let mesh = || extrude::extrude_blocks(self, &xs, &ys, height);
+            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |k| self.line(k), height);
             maze_of_grid([xs.len(), ys.len()], mesh, options)
         };
         let mut maze = of_height(WALL_HEIGHT)?;
@@ -141,22 +148,21 @@ impl Blocks {
             // Only now it is known how many blocks make a corridor.
             maze = of_height(WALL_HEIGHT / maze.scale)?;
         }
-        let Some(ends) = self.ends else { return Ok(maze) };
+        if self.ends == [None; 2] {
+            return Ok(maze);
+        }
         let middle = |values: &[usize]| {
-            let sum = values.first().zip(values.last()).map_or(0, |(low, high)| low + high);
-            to_f64(sum) / 2.0
+            let ends = values.first().zip(values.last());
+            ends.map_or(0.0, |(low, high)| (self.line(*low) + self.line(*high)) / 2.0)
         };
-        let points = ends.map(|[x, y]| {
-            let from_middle = Vector2::new(to_f64(x) + 0.5 - middle(&xs), to_f64(y) + 0.5 - middle(&ys));
-            from_middle * maze.scale
-        });
+        let point = |[x, y]: [usize; 2]| {
+            let [x, y] = [x, y].map(|at| (self.line(at) + self.line(at + 1)) / 2.0);
+            Vector2::new(x - middle(&xs), y - middle(&ys)) * maze.scale
+        };
         // What the user asks for goes before what the file says.
-        let [start, goal] = points;
-        let (start, goal) = (options.start.unwrap_or(start), options.goal.unwrap_or(goal));
-        maze.with_ends(start, goal).map_err(|at| {
-            let ([x, y], name) = (ends[at], ['S', 'G'][at]);
-            BlocksError::NoRoomAt { line: self.height - y, column: x + 1, name }
-        })
+        let [start, goal] = self.ends.map(|end| end.map(point));
+        maze.with_ends(options.start.or(start), options.goal.or(goal))
+            .map_err(|end| BlocksError::NoRoomAt { end, name: ["start", "goal"][end] })
     }
 }
 

@@ -13,7 +13,7 @@ pub const WALL_THICKNESS: f64 = 0.2;
 pub const WALL_HEIGHT: f64 = 0.55;
 
 /// Coordinate of the k-th wall line or corridor edge: even k starts a wall, odd k a corridor.
-fn line(k: usize) -> f64 {
+pub(crate) fn line(k: usize) -> f64 {
     let [n_walls, n_corridors] = [to_f64(k.div_ceil(2)), to_f64(k / 2)];
     n_walls * WALL_THICKNESS + n_corridors * CORRIDOR
 }
@@ -26,9 +26,15 @@ pub fn extrude(layout: &Layout) -> PolygonMesh {
     Grid { xs, ys, height: WALL_HEIGHT, is_wall: |i, j| blocks.is_wall(i, j) }.mesh()
 }
 
-/// Blocks of 1 unit as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece.
-pub(crate) fn extrude_blocks(blocks: &Blocks, xs: &[usize], ys: &[usize], height: f64) -> PolygonMesh {
-    let lines = |edges: &[usize]| edges.iter().map(|edge| to_f64(*edge)).collect();
+/// Blocks as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece, and `line` is where an edge lies.
+pub(crate) fn extrude_blocks(
+    blocks: &Blocks,
+    xs: &[usize],
+    ys: &[usize],
+    line: impl Fn(usize) -> f64,
+    height: f64,
+) -> PolygonMesh {
+    let lines = |edges: &[usize]| edges.iter().map(|edge| line(*edge)).collect();
     Grid { xs: lines(xs), ys: lines(ys), height, is_wall: |i, j| blocks.is_wall(xs[i], ys[j]) }.mesh()
 }
 

@@ -108,16 +108,41 @@ impl Maze {
         Some([self.reach.cell_at(self.start)?, self.reach.cell_at(self.goal)?])
     }
 
-    /// The same maze from another start to another goal (units), each the nearest place to the wished one where the ball
-    /// fits.
+    /// The same maze from another start, or to another goal, or both (units), each the nearest place to the wished one where
+    /// the ball fits. Of start and goal as they were, the one farther away stays the other end where only one is given.
     ///
     /// # Errors
     /// 0 when the ball fits nowhere near the start, 1 when it does not near the goal.
-    pub(crate) fn with_ends(mut self, start: Vector2<f64>, goal: Vector2<f64>) -> Result<Self, usize> {
-        let (from, start) = self.reach.nearest(start, MAX_SHIFT).ok_or(0_usize)?;
-        let (to, goal) = self.reach.nearest(goal, MAX_SHIFT).ok_or(1_usize)?;
-        self.solvable = self.reach.distances_from(from).to(to).is_finite();
-        (self.start, self.goal) = (start, goal);
+    pub(crate) fn with_ends(
+        mut self,
+        start: Option<Vector2<f64>>,
+        goal: Option<Vector2<f64>>,
+    ) -> Result<Self, usize> {
+        let before = [self.start, self.goal];
+        let mut ends = [None; 2];
+        for (end, wished) in [start, goal].into_iter().enumerate() {
+            let Some(wished) = wished else { continue };
+            ends[end] = Some(self.reach.nearest(wished, MAX_SHIFT).ok_or(end)?);
+        }
+        let far_from = |cell: usize| {
+            let distances = self.reach.distances_from(cell);
+            let length = |point: Vector2<f64>| {
+                let length = self.reach.cell_at(point).map_or(f64::INFINITY, |cell| distances.to(cell));
+                if length.is_finite() { length } else { -1.0 }
+            };
+            let [start, goal] = before;
+            let point = if length(start) < length(goal) { goal } else { start };
+            self.reach.cell_at(point).map(|cell| (cell, point))
+        };
+        let ends = match ends {
+            [Some(start), None] => [Some(start), far_from(start.0)],
+            [None, Some(goal)] => [far_from(goal.0), Some(goal)],
+            ends => ends,
+        };
+        if let [Some((from, start)), Some((to, goal))] = ends {
+            self.solvable = self.reach.distances_from(from).to(to).is_finite();
+            (self.start, self.goal) = (start, goal);
+        }
         Ok(self)
     }
 }

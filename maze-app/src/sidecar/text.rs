@@ -1,5 +1,6 @@
 //! What a sidecar's text says. By itself, so that a fuzz target can include it.
 
+use maze_core::import::text::TextOptions;
 use maze_core::{Radius, UpAxis};
 use nalgebra::Vector2;
 use serde::de::Error;
@@ -27,6 +28,31 @@ pub(crate) struct Sidecar {
     pub(crate) goal: Option<Vector2<f64>>,
     /// Directory with wall.bmp, floor.bmp and top.bmp, from the sidecar's own.
     pub(crate) textures: Option<PathBuf>,
+    /// Which signs of a text maze mean what.
+    pub(crate) text: TextSigns,
+}
+
+/// The signs of a text maze, as a sidecar or flags state them.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct TextSigns {
+    pub(crate) wall: Option<String>,
+    pub(crate) free: Option<String>,
+    pub(crate) start: Option<String>,
+    pub(crate) goal: Option<String>,
+}
+
+impl TextSigns {
+    /// These signs, and those of another statement for what these do not say.
+    pub(crate) fn or(&self, other: &Self) -> TextOptions {
+        let or = |one: &Option<String>, other: &Option<String>| one.as_ref().or(other.as_ref()).cloned();
+        TextOptions {
+            wall: or(&self.wall, &other.wall),
+            free: or(&self.free, &other.free),
+            start: or(&self.start, &other.start),
+            goal: or(&self.goal, &other.goal),
+        }
+    }
 }
 
 fn up_axis<'de, D: Deserializer<'de>>(value: D) -> Result<Option<UpAxis>, D::Error> {
@@ -85,7 +111,7 @@ mod tests {
 
     /// Pieces of a sidecar in any order: nearer to one than any characters are.
     fn pieces() -> impl Strategy<Value = String> {
-        const KNOWN: [&str; 28] = [
+        const KNOWN: [&str; 31] = [
             "up = ",
             "scale = ",
             "ball_radius = ",
@@ -93,6 +119,9 @@ mod tests {
             "goal = [",
             "textures = ",
             "colour = ",
+            "text.wall = ",
+            "[text]\n",
+            "free = '.'\n",
             "up = 'z'\n",
             "scale = 2\n",
             "goal = [1, -2.5]\n",
@@ -153,12 +182,16 @@ mod tests {
 
     #[test]
     fn everything_may_be_said() {
-        let text = "up = 'z'\nscale = 2\nball_radius = 0.3\nstart = [1, -2.5]\ngoal = [0.0, 0.0]\ntextures = 'oak'\n";
+        let text = "up = 'z'\nscale = 2\nball_radius = 0.3\nstart = [1, -2.5]\ngoal = [0.0, 0.0]\ntextures = 'oak'\n\
+                    [text]\nwall = '#%'\nstart = 'A'\n";
         let sidecar = Sidecar::parse(text).unwrap();
         assert_eq!(sidecar.up, Some(UpAxis::Z));
         assert_eq!((sidecar.scale, sidecar.ball_radius), (Some(2.0), Radius::new(0.3)));
         assert_eq!((sidecar.start, sidecar.goal), (Some(Vector2::new(1.0, -2.5)), Some(Vector2::zeros())));
         assert_eq!(sidecar.textures, Some(PathBuf::from("oak")));
+        let signs = TextSigns { wall: Some("#%".into()), start: Some("A".into()), ..Default::default() };
+        assert_eq!(sidecar.text, signs);
+        assert_eq!(Sidecar::parse("text.wall = '#%'\ntext.start = 'A'\n").unwrap().text, signs);
         assert_eq!(Sidecar::parse("# nothing\n"), Ok(Sidecar::default()));
     }
 
@@ -175,6 +208,8 @@ mod tests {
             ("goal = [inf, 0]", 1, "two finite numbers"),
             ("up = 'y'\nup = 'z'\n", 2, "duplicate key"),
             ("up = 'y'\n\n= 3\n", 3, ""),
+            ("[text]\nwalls = '#'\n", 2, "unknown field `walls`"),
+            ("text.wall = 1\n", 1, "invalid type"),
         ];
         for (text, line, expected) in cases {
             let (at, reason) = Sidecar::parse(text).unwrap_err();

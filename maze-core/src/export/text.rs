@@ -8,8 +8,8 @@ pub fn write(blocks: &Blocks) -> String {
     for y in (0..blocks.height()).rev() {
         let character = |x: usize| match blocks.ends() {
             _ if blocks.is_wall(x, y) => '#',
-            Some([start, _]) if start == [x, y] => 'S',
-            Some([_, goal]) if goal == [x, y] => 'G',
+            [Some(start), _] if start == [x, y] => 'S',
+            [_, Some(goal)] if goal == [x, y] => 'G',
             _ => ' ',
         };
         let line: String = (0..blocks.width()).map(character).collect();

@@ -110,7 +110,7 @@ pub fn read(width: usize, height: usize, brightness: &[u8]) -> Result<Picture, P
     }
     let [n_x, n_y] = [n_x / cell, n_y / cell];
     let block = |index: usize| is_dark(left + index % n_x * cell, bottom - index / n_x * cell);
-    let blocks = Blocks::new(n_x, n_y, (0..n_x * n_y).map(block).collect(), None).ok_or(size)?;
+    let blocks = Blocks::new(n_x, n_y, (0..n_x * n_y).map(block).collect(), [None; 2]).ok_or(size)?;
     Ok(Picture { blocks, cell, left, top })
 }
 
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn the_cell_is_found_and_the_maze_is_that_of_the_text() {
-        let blocks = text::read(WAY.as_bytes()).unwrap();
+        let blocks = text::read(WAY.as_bytes(), &text::TextOptions::default()).unwrap().blocks;
         for (cell, margin) in [(1, 0), (1, 3), (2, 0), (5, 7), (16, 2)] {
             for tones in [[0, 255], [127, 128], [90, 200]] {
                 let (width, height, pixels) = drawn(WAY, cell, margin, tones);
