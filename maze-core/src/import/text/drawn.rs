@@ -13,6 +13,9 @@ const RIGHT: usize = 1;
 const DOWN: usize = 2;
 const LEFT: usize = 3;
 
+const UPRIGHT: Arms = [true, false, true, false];
+const LEVEL: Arms = [false, true, false, true];
+
 /// The strokes of a character; `None` when it draws no wall. Source: the Unicode chart of box drawing, U+2500 to U+257F.
 fn arms(character: char) -> Option<Arms> {
     let [up, right, down, left] = [1, 2, 4, 8];
@@ -130,19 +133,38 @@ impl<'a> Canvas<'a> {
         let width = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let mut columns = vec![None; width];
         let mut rows = vec![None; self.rows.len()];
+        let at = |row: Option<usize>, column: Option<usize>| match (row, column) {
+            (Some(row), Some(column)) if row < self.rows.len() => self.arms(row, column),
+            _ => [false; 4],
+        };
         for row in 0..self.rows.len() {
-            for column in 0..self.rows[row].len() {
-                let [up, right, down, left] = self.arms(row, column);
-                if up || down {
+            for column in 0..width {
+                let here = self.arms(row, column);
+                let [up, right, down, left] = here;
+                let before = [at(row.checked_sub(1), Some(column)), at(Some(row), column.checked_sub(1))];
+                let behind = [at(Some(row + 1), Some(column)), at(Some(row), Some(column + 1))];
+                // Where a stroke stops for a character and goes on, or ends within one, is a corner too.
+                let stops = |axis: usize, stroke: Arms| {
+                    here == [false; 4] && before[axis] == stroke && behind[axis] == stroke
+                };
+                // A run of `_` begins and ends beside a corner.
+                let ends =
+                    self.is_underscored && here == [false; 4] && (before[1] == LEVEL || behind[1] == LEVEL);
+                if up || down || stops(1, LEVEL) || (right != left) || ends {
                     columns[column].get_or_insert((row, column));
                 }
-                // Below cells a `|` passes on; only `_` makes a line.
-                if right || left {
+                if right || left || stops(0, UPRIGHT) || (up != down) {
                     rows[row].get_or_insert((row, column));
                 }
             }
         }
-        Ok([self.even(&columns)?, self.even(&rows)?])
+        let columns = self.even(&columns)?;
+        // Of so narrow cells each line is a row, whether there is a wall below any of its cells or not.
+        if self.is_underscored && columns.windows(2).all(|pair| pair[1] - pair[0] <= 3) {
+            let floors = (1..rows.len()).step_by(2).collect();
+            return Ok([columns, floors]);
+        }
+        Ok([columns, self.even(&rows)?])
     }
 
     /// Even steps through all marked places; each mark says where in the file it is.
@@ -156,15 +178,16 @@ impl<'a> Canvas<'a> {
         if step == 0 {
             return Err(TextError::NoWalls { n_lines: self.lines.len() });
         }
-        // Where nearly all steps are multiples of a larger one, a stroke is out of place.
+        // Where nearly all places are multiples of a larger step, a stroke is out of place; box characters may end anywhere.
         let mut sorted: Vec<usize> = steps().collect();
         sorted.sort_unstable();
         let usual = sorted[sorted.len() / 2];
-        if step < usual && usual % step != 0 || (step == 1 && 2 < usual) {
-            let stray = marked.iter().find(|at| !(*at - first).is_multiple_of(usual));
-            if let Some((row, column)) = stray.and_then(|at| marks[*at]) {
-                return Err(TextError::OffGrid { place: self.place(row, column), step: usual });
-            }
+        let mut stray = marked.iter().filter(|at| !(*at - first).is_multiple_of(usual)).peekable();
+        if let Some((row, column)) = stray.peek().and_then(|at| marks[**at])
+            && self.rows.iter().flatten().all(|c| c.is_ascii())
+            && 4 * stray.count() <= marked.len()
+        {
+            return Err(TextError::OffGrid { place: self.place(row, column), step: usual });
         }
         Ok((*first..=*last).step_by(step).collect())
     }

@@ -334,10 +334,11 @@ impl Separator {
         }
         let indent = indent(lines);
         let every_second_is_blank = |line: &str| line.chars().skip(indent + 1).step_by(2).all(|c| c == ' ');
+        // The outer wall, with openings.
         let is_full = |line: Option<&str>| {
             line.is_some_and(|line| {
-                let mut cells = line.chars().skip(indent).step_by(2).peekable();
-                cells.peek().is_some() && cells.all(|c| c != ' ')
+                let cells = || line.chars().skip(indent).step_by(2);
+                cells().count() <= 2 * cells().filter(|c| *c != ' ').count()
             })
         };
         let is_wide = |line: &str| indent + 5 <= line.chars().count();

@@ -272,7 +272,14 @@ pub fn read(bytes: &[u8], options: &TextOptions) -> Result<TextMaze, TextError> 
     let lines = grid::lines(&text)?;
     let header =
         lines.split_first().and_then(|(first, body)| Some((grid::sizes(first.content)?, first, body)));
-    let Some((sizes, first, body)) = header.filter(|(_, _, body)| !body.is_empty()) else {
+    // A number as long as the next line is a row of digits.
+    let is_row = |first: &Line, body: &[Line]| {
+        let next = body.iter().find(|line| !line.is_blank());
+        next.is_none_or(|next| {
+            first.content.len() == next.content.len() && first.content.parse::<u64>().is_ok()
+        })
+    };
+    let Some((sizes, first, body)) = header.filter(|(_, first, body)| !is_row(first, body)) else {
         return Ok(Read::new(&lines, options)?.maze);
     };
     let body = &body[body.iter().take_while(|line| line.is_blank()).count()..];
@@ -283,14 +290,14 @@ pub fn read(bytes: &[u8], options: &TextOptions) -> Result<TextMaze, TextError> 
         below.maze.found += &format!("; line {}, `{}`, is its size", first.number, first.content.trim());
         return Ok(below.maze);
     }
-    match (Read::new(&lines, options), below) {
-        (Ok(all), _) => Ok(all.maze),
-        (Err(_), Ok(below)) => {
-            let [n_columns, n_rows] = below.sizes[0];
-            Err(TextError::Header { said: first.content.trim().to_owned(), n_rows, n_columns })
-        }
-        (Err(_), Err(error)) => Err(error),
+    let is_digit_below = |digit: char| body.iter().any(|line| line.content.contains(digit));
+    if first.content.chars().any(|c| c.is_ascii_digit() && is_digit_below(c))
+        && let Ok(all) = Read::new(&lines, options)
+    {
+        return Ok(all.maze);
     }
+    let [n_columns, n_rows] = below?.sizes[0];
+    Err(TextError::Header { said: first.content.trim().to_owned(), n_rows, n_columns })
 }
 
 /// The text of a file in UTF-8, or in UTF-16 with the mark by which it is known.

@@ -322,8 +322,9 @@ pub(super) fn find_ends(
         }
     }
     alone.retain(|sign| stated.iter().flatten().all(|cell| usize::from(grid.cells[*cell]) != *sign));
-    let found = match stated {
-        [Some(_), Some(_)] => [None, None],
+    let found = match (stated, alone.as_slice()) {
+        ([Some(_), Some(_)], _) => [None, None],
+        ([Some(_), None] | [None, Some(_)], [one]) => [Some(*one), None],
         _ => known_ends(grid, &alone)?,
     };
     let [start, goal] = found.map(|sign| sign.and_then(|sign| first_cell(grid, sign)));
