@@ -56,23 +56,24 @@ fn text_round_trip(blocks: &Blocks) {
     if again.width() < blocks.width() / 2 + 2 && 1 < again.width() {
         return;
     }
-    // Free places at the right of all lines are not written, nor are those before the first wall.
-    let [left, top] = margins(blocks);
-    assert_eq!(again.height() + top, blocks.height());
-    for (x, y) in (0..again.height()).flat_map(|y| (0..blocks.width()).map(move |x| (x, y))) {
-        assert_eq!(left <= x && again.is_wall(x - left, y), blocks.is_wall(x, y));
+    // What is free beyond all walls and ends is not written.
+    let [left, bottom, top] = margins(blocks);
+    assert_eq!(again.height() + bottom + top, blocks.height());
+    for (x, y) in (0..blocks.height()).flat_map(|y| (0..blocks.width()).map(move |x| (x, y))) {
+        let is_wall = left <= x && bottom <= y && again.is_wall(x - left, y - bottom);
+        assert_eq!(is_wall, blocks.is_wall(x, y));
     }
-    let moved = blocks.ends().map(|end| end.map(|[x, y]| [x - left, y]));
+    let moved = blocks.ends().map(|end| end.map(|[x, y]| [x - left, y - bottom]));
     assert_eq!(again.ends(), moved);
 }
 
-/// Columns at the left and rows at the top with neither walls nor ends.
-fn margins(blocks: &Blocks) -> [usize; 2] {
+/// Columns at the left, rows at the bottom and at the top with neither walls nor ends.
+fn margins(blocks: &Blocks) -> [usize; 3] {
     let is_used = |x: usize, y: usize| blocks.is_wall(x, y) || blocks.ends().contains(&Some([x, y]));
     let (width, height) = (blocks.width(), blocks.height());
+    let is_empty_row = |y: &usize| (0..width).all(|x| !is_used(x, *y));
     let left = (0..width).take_while(|x| (0..height).all(|y| !is_used(*x, y))).count();
-    let top = (0..height).rev().take_while(|y| (0..width).all(|x| !is_used(x, *y))).count();
-    [left, top]
+    [left, (0..height).take_while(is_empty_row).count(), (0..height).rev().take_while(is_empty_row).count()]
 }
 
 /// A picture: two bytes for its size, the others are pixels, repeated as needed.
