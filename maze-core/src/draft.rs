@@ -36,8 +36,17 @@ const ENDLESS_PART: f64 = 0.9;
 /// Part of the faces' ends that meet no other face from which on the faces are walls without thickness, seen from one side.
 const LOOSE_PART: f64 = 0.5;
 
+/// Part of the plan in doubt from which on faces are counted in other ways too.
+const MAX_DOUBT: f64 = 0.02;
+
+/// Most pairs of a face and a sheet that are compared.
+const MAX_PAIRS: usize = 1 << 26;
+
 /// Percent of the walls' length that may be faces without thickness, which are no walls, before the file is refused.
 const MAX_SHEET_PERCENT: f64 = 1.0;
+
+/// A face without thickness longer than this part of a corridor is met all the same.
+const SHEET_OF_CORRIDOR: f64 = 0.25;
 
 /// Percent of the plan that may look solid from two sides and free from the other two before the walls count as open.
 /// A careless modeller's forgotten face stays below it.
@@ -102,16 +111,23 @@ struct Draft {
 impl Section {
     /// Sums up wall faces. `raw` must not be empty.
     pub(crate) fn new(raw: &[Plane]) -> Result<Self, SectionError> {
-        let is_whole = |section: &Result<Self, SectionError>| {
-            section.as_ref().is_ok_and(|section| section.thickened_to.is_none())
+        // How far a plan is from one without a doubt.
+        let doubt = |section: &Result<Self, SectionError>| match section {
+            Ok(section) if section.thickened_to.is_none() => section.doubtful_part,
+            _ => f64::INFINITY,
         };
-        let counted = Self::summed(raw, Repeats::Count);
-        if is_whole(&counted) {
-            return counted;
+        let mut best = Self::summed(raw, Repeats::Count);
+        // Faces that are there several times for no reason, or with their backs, may be what is wrong.
+        for repeats in [Repeats::Once, Repeats::Fronts] {
+            if doubt(&best) <= MAX_DOUBT {
+                break;
+            }
+            let other = Self::summed(raw, repeats);
+            if doubt(&other) < doubt(&best) {
+                best = other;
+            }
         }
-        // Faces that are there several times for no reason may be what is wrong.
-        let once = Self::summed(raw, Repeats::Once);
-        if is_whole(&once) { once } else { counted }
+        best
     }
 
     fn summed(raw: &[Plane], repeats: Repeats) -> Result<Self, SectionError> {
@@ -141,7 +157,7 @@ impl Section {
                 // Faces seen from one side must not count for winding; those of both sides cancel.
                 (&[][..], joined(raw))
             }
-            None => return Ok(draft.finish()),
+            None => return Ok(draft.with_sheets(raw, size, max)),
             Some(SectionError::Sheets { .. }) => (raw, draft.sheets().2),
             Some(fault) => return Err(fault),
         };
@@ -331,6 +347,34 @@ impl Draft {
         match self.fault() {
             None => Ok(self.finish()),
             Some(fault) => Err(fault),
+        }
+    }
+
+    /// The plan with the few faces without thickness that stand in it, where that makes a maze.
+    fn with_sheets(self, raw: &[Plane], size: f64, max_cells: usize) -> Section {
+        let mut sheets = self.sheets().2;
+        let plain = self.finish();
+        let [_, narrow] = plain.thin_and_narrow();
+        let least = SHEET_OF_CORRIDOR * narrow.unwrap_or(0.0);
+        sheets.retain(|sheet| least < sheet.end - sheet.start);
+        if sheets.is_empty() || MAX_PAIRS < raw.len().saturating_mul(sheets.len()) {
+            return plain;
+        }
+        // The faces themselves would count for winding.
+        let within = size * NOISE_PART;
+        let is_sheet = |face: &&Plane| {
+            let lies_on = |sheet: &Plane| {
+                sheet.facing.axis() == face.facing.axis()
+                    && (sheet.offset - face.offset).abs() <= within
+                    && sheet.start - within <= face.start
+                    && face.end <= sheet.end + within
+            };
+            sheets.iter().any(lies_on)
+        };
+        let solid: Vec<Plane> = raw.iter().filter(|face| !is_sheet(face)).copied().collect();
+        match thickened(&solid, &sheets, size, max_cells) {
+            Ok(Some(section)) => section,
+            _ => plain,
         }
     }
 

@@ -19,6 +19,10 @@ pub(crate) const MAX_OFF_AXIS_PART: f64 = 0.1;
 /// Upward faces nearer to the floor than this part of the wall height are floor, the others are tops of walls.
 const FLOOR_PART: f64 = 0.25;
 
+/// Part of the plan's rectangle that upward faces at one height must cover to be a floor: corridors alone cover twice as much
+/// and more, the tops of low blocks and pillars less.
+const FLOOR_SHARE: f64 = 0.2;
+
 /// Extents of a file that can be computed with (file units): squares and products of areas stay finite and above 0.
 pub(crate) const SIZES: RangeInclusive<f64> = 1.0e-12..=1.0e12;
 
@@ -179,23 +183,57 @@ impl<'a> Survey<'a> {
         let mut kinds = Vec::with_capacity(self.mesh.n_faces());
         let mut areas = Areas::default();
         let mut levels = Levels::with_room_for(self.mesh.n_faces());
+        let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(|value| Vector2::new(value, value));
         self.each_face(|corners| {
             let (kind, area, normal) = slice::classify(corners, size);
             areas.add(kind, area, normal);
             levels.add(kind, area, corners);
+            if matches!(kind, FaceKind::Wall(_)) {
+                for corner in corners {
+                    (low, high) = (low.inf(&corner.xy()), high.sup(&corner.xy()));
+                }
+            }
             kinds.push(kind);
         });
-        areas.refuse()?;
-        (self.floor_z, self.top_z, self.has_floor) = levels.floor_and_top();
+        let refused = areas.refuse();
+        let plan = high - low;
+        (self.floor_z, self.top_z, self.has_floor) = levels.floor_and_top(FLOOR_SHARE * plan.x * plan.y);
+        if let Err(error) = refused {
+            // What lies above or below the height at which the walls are cut is never met, and makes no maze of it, nor spoils one.
+            areas = self.areas_at(self.cut_height(), &kinds, size);
+            areas.refuse().map_err(|_| error)?;
+        }
         (self.ignored, self.adjusted) = areas.notes();
         self.area = areas.all.area;
         self.kinds = kinds;
         Ok(())
     }
 
+    /// The areas of the faces that cross a height; those off axis that do not are counted as beyond it.
+    fn areas_at(&self, height: f64, kinds: &[FaceKind], size: f64) -> Areas {
+        let mut areas = Areas::default();
+        let mut kinds = kinds.iter();
+        self.each_face(|corners| {
+            let Some(kind) = kinds.next() else { return };
+            let (_, area, normal) = slice::classify(corners, size);
+            let is_below = |corner: &Vector3<f64>| corner.z < height;
+            let crosses = corners.iter().any(is_below) && !corners.iter().all(is_below);
+            match kind {
+                FaceKind::OffAxis if !crosses => areas.beyond(area),
+                _ => areas.add(*kind, area, normal),
+            }
+        });
+        areas
+    }
+
+    /// The height at which the walls are cut.
+    fn cut_height(&self) -> f64 {
+        self.floor_z + CUT_PART * (self.top_z - self.floor_z)
+    }
+
     /// The walls as planes at one height.
     pub(crate) fn cut_walls(&self) -> Result<Vec<Plane>, AssembleError> {
-        let height = self.floor_z + CUT_PART * (self.top_z - self.floor_z);
+        let height = self.cut_height();
         let is_cut = |kind: &&FaceKind| matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis);
         let mut cut = Vec::with_capacity(self.kinds.iter().filter(is_cut).count());
         self.each(|kind, corners| {
@@ -273,6 +311,7 @@ struct Areas {
     down: Tally,
     degenerate: Tally,
     off_axis: Tally,
+    beyond: Tally,
     /// Of the off-axis ones: not upright, and of these those along an axis all the same.
     leaning: f64,
     leaning_on_axis: f64,
@@ -305,6 +344,12 @@ impl Areas {
         }
     }
 
+    /// Counts a face off axis that does not reach the height at which the walls are cut.
+    fn beyond(&mut self, area: f64) {
+        self.all.add(area);
+        self.beyond.add(area);
+    }
+
     /// Refuses what is no maze of axis-aligned walls, by what most of it is.
     fn refuse(&self) -> Result<(), AssembleError> {
         let (walls, off_axis) = (self.walls.area, self.off_axis.area);
@@ -333,6 +378,7 @@ impl Areas {
         let ignored = [
             self.down.note("looks down: never seen and never met", total),
             self.degenerate.note("no area", total),
+            self.beyond.note("off axis, above or below where the walls are met: drawn, never met", total),
         ];
         let adjusted = [
             self.snapped.note("off axis by up to 1 degree: snapped to it", total),
@@ -415,8 +461,9 @@ impl Levels {
     /// Height of the floor, of the wall tops, and whether there is a floor at all.
     ///
     /// The floor is the largest upward level from the walls' lower end to four fifths of their height, or above that if more
-    /// wall stands on it than under it: the floor of a thick board. Else it is their lower end.
-    fn floor_and_top(mut self) -> (f64, f64, bool) {
+    /// wall stands on it than under it: the floor of a thick board. It has at least this area. Else it is their lower end, without
+    /// the few that reach below the others.
+    fn floor_and_top(mut self, least_area: f64) -> (f64, f64, bool) {
         let [low, high] = self.walls_low_and_high();
         let near = 1.0e-3 * (high - low);
         self.upward.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -430,11 +477,25 @@ impl Levels {
             .upward
             .chunk_by(|a, b| b.0 - a.0 <= near)
             .map(|level| (level[level.len() / 2].0, level.iter().map(|(_, area)| area).sum::<f64>()))
-            .filter(|(z, _)| is_floor(*z))
+            .filter(|(z, area)| is_floor(*z) && least_area <= *area)
             .max_by(|a, b| a.1.total_cmp(&b.1));
         match floor {
             Some((z, _)) => (z, high, true),
-            None => (low, high, false),
+            None => (self.common_low(low, near), high, false),
         }
+    }
+
+    /// The lowest height on which a wall stands, without those few that are sunk below it.
+    fn common_low(&mut self, lowest: f64, near: f64) -> f64 {
+        self.walls.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut sunk = 0.0;
+        let few = OUTLIER_PART * self.walls.iter().map(|[_, _, area]| area).sum::<f64>();
+        for level in self.walls.chunk_by(|a, b| b[0] - a[0] <= near) {
+            sunk += level.iter().map(|[_, _, area]| area).sum::<f64>();
+            if few <= sunk {
+                return if level[0][0] < lowest { lowest } else { level[0][0] };
+            }
+        }
+        lowest
     }
 }

@@ -66,6 +66,8 @@ pub(crate) enum Repeats {
     Count,
     /// Once: a file may hold some faces twice for no reason.
     Once,
+    /// Of two that look opposite ways at one place the first one: a file may hold every face with its back.
+    Fronts,
 }
 
 /// Starts and ends of all faces; a start and an end of the same row that meet cancel, so pieces become one.
@@ -88,6 +90,7 @@ pub(crate) fn edges(raw: &[Plane], coordinates: &[Coordinates; 2], repeats: Repe
             faces.dedup();
             faces.into_flattened()
         }
+        Repeats::Fronts => fronts(raw.iter().map(ends_of).collect()).into_flattened(),
     };
     ends.sort_unstable();
     let same_place = |a: &Edge, b: &Edge| (a.facing, a.offset, a.along) == (b.facing, b.offset, b.along);
@@ -95,6 +98,29 @@ pub(crate) fn edges(raw: &[Plane], coordinates: &[Coordinates; 2], repeats: Repe
         .chunk_by(same_place)
         .map(|place| Edge { change: place.iter().map(|edge| edge.change).sum(), ..place[0] });
     summed.filter(|edge| edge.change != 0).collect()
+}
+
+/// The faces without those that are the back of one before them.
+fn fronts(faces: Vec<[Edge; 2]>) -> Vec<[Edge; 2]> {
+    let place = |[start, end]: &[Edge; 2]| (start.facing.axis(), start.offset, start.along, end.along);
+    let mut order: Vec<usize> = (0..faces.len()).collect();
+    // Stable: faces of one place stay in the order of the file.
+    order.sort_by_key(|face| place(&faces[*face]));
+    let mut fronts = Vec::with_capacity(faces.len());
+    for same in order.chunk_by(|a, b| place(&faces[*a]) == place(&faces[*b])) {
+        let mut unpaired = [0_usize; 2]; // faces kept so far without a back, by the way they look
+        for face in same.iter().map(|face| faces[*face]) {
+            let looks = usize::from(0.0 < face[0].facing.sign());
+            match unpaired[1 - looks] {
+                0 => {
+                    unpaired[looks] += 1;
+                    fronts.push(face);
+                }
+                _ => unpaired[1 - looks] -= 1,
+            }
+        }
+    }
+    fronts
 }
 
 /// For each axis, the new index of every coordinate that an edge uses.

@@ -10,10 +10,10 @@ pub(super) struct Line<'a> {
     pub(super) content: Cow<'a, [u8]>,
 }
 
-/// The words of a line up to a comment.
+/// The words of a line up to a comment. A `#` within a word begins none: some programs write infinity as `1.#INF`.
 fn words(content: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let code = content.split(|byte| *byte == b'#').next().unwrap_or_default();
-    code.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+    let words = content.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+    words.take_while(|word| !word.starts_with(b"#"))
 }
 
 /// A line for a message: shortened, and in whatever encoding.
