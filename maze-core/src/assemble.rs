@@ -11,7 +11,7 @@ use crate::reach::Reach;
 use crate::section::Section;
 use crate::sorted_planes::SortedPlanes;
 use crate::survey::{MAX_OFF_AXIS_PART, Misfit, SIZES, Survey, extent};
-use crate::way::Way;
+use crate::way::{Way, WayError, Wishes};
 use nalgebra::{Vector2, Vector3};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -24,6 +24,13 @@ const RING_PART: f64 = 0.02;
 
 /// An axis may point out of the board if the file is at most so many times as deep along it as along the flattest one.
 const MAX_DEPTH_RATIO: f64 = 2.0;
+
+/// The radii that are tried, in hundredths of a corridor, where the usual ball finds no path; below the first one a ball is hard to
+/// see.
+const TRIED_RADII: RangeInclusive<u8> = 2..=48;
+
+/// Part of the plan that low walls may bring into doubt before they are left out.
+const MAX_ADDED_DOUBT: f64 = 0.01;
 
 /// Widths of a corridor (units) that a scale given by the user may lead to.
 const CORRIDORS: RangeInclusive<f64> = 0.1..=100.0;
@@ -107,6 +114,12 @@ pub enum AssembleError {
         /// The corridors' width with it.
         corridor: f64,
     },
+    /// The ball does not fit where the file's start or goal is, nor near it.
+    #[error("the ball does not fit at the {}: expected a free place between the walls", ["start", "goal"][*end])]
+    NoRoomNear {
+        /// 0 for the start, 1 for the goal.
+        end: usize,
+    },
     /// Start or goal lies in a wall, too near to one, or beyond the board.
     #[error(
         "the ball does not fit at ({x}, {y}): expected a start and a goal within the corridors, as `info` prints them"
@@ -117,6 +130,17 @@ pub enum AssembleError {
         /// Maze units.
         y: f64,
     },
+}
+
+impl AssembleError {
+    /// Why there is no start or no goal for a ball of this radius, in corridors.
+    fn of_way(error: WayError, radius: f64) -> Self {
+        match error {
+            WayError::NoRoom => Self::NoRoom { radius },
+            WayError::NotFree(place) => Self::NotFree { x: place.x, y: place.y },
+            WayError::NoRoomNear(end) => Self::NoRoomNear { end },
+        }
+    }
 }
 
 /// What the assembly of a maze is at; for a reader who waits.
@@ -162,17 +186,30 @@ impl Maze {
         options: &AssembleOptions,
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
+        Self::assembled(mesh, options, [None; 2], tell)
+    }
+
+    /// [`Maze::from_polygons_step_by_step`] with the start and goal of the file, in its units across the up axis; what the options
+    /// say goes before them.
+    pub(crate) fn assembled(
+        mesh: &PolygonMesh,
+        options: &AssembleOptions,
+        ends: [Option<Vector2<f64>>; 2],
+        tell: &mut dyn FnMut(Stage),
+    ) -> Result<Self, AssembleError> {
         let axes = match options.up_axis {
             Some(axis) => vec![axis],
             None => flat_axes(mesh.positions()),
         };
         let mut first_error = None;
         for axis in axes {
-            match Self::standing(mesh, axis, options, tell) {
+            match Self::standing(mesh, axis, options, ends, tell) {
                 // What the user asked for is meant for the axis that stands first: no other one is an answer to it.
-                Err(error @ (AssembleError::NotFree { .. } | AssembleError::Scale { .. })) => {
-                    return Err(error);
-                }
+                Err(
+                    error @ (AssembleError::NotFree { .. }
+                    | AssembleError::NoRoomNear { .. }
+                    | AssembleError::Scale { .. }),
+                ) => return Err(error),
                 Err(error) => first_error = first_error.or(Some(error)),
                 maze => return maze,
             }
@@ -184,6 +221,7 @@ impl Maze {
         mesh: &PolygonMesh,
         up_axis: UpAxis,
         options: &AssembleOptions,
+        ends: [Option<Vector2<f64>>; 2],
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
         tell(Stage::Faces);
@@ -193,7 +231,8 @@ impl Maze {
         let mut raw_section = Section::new(&cut)?;
         drop(cut);
         let mut covers = board::Covers::new(&survey, &raw_section);
-        if covers.is_turned_over() {
+        let is_turned_over = covers.is_turned_over();
+        if is_turned_over {
             let size = extent(mesh.positions()).amax();
             raw_section = raw_section.turned_over(RING_PART * size);
             covers = board::Covers::new(&survey, &raw_section);
@@ -204,7 +243,15 @@ impl Maze {
             covers = board::Covers::new(&survey, &raw_section);
         }
         covers.note_roof(&mut survey);
-        let corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
+        let mut corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
+        if !is_turned_over {
+            let radius = options.ball_radius.unwrap_or(BallSpec::RADIUS).units() * corridor;
+            if let Some(section) = with_low_walls(&mut survey, &raw_section, radius)? {
+                raw_section = section;
+                corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
+                covers = board::Covers::new(&survey, &raw_section);
+            }
+        }
         let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor, options.scale);
         if let Some(scale) = options.scale.filter(|scale| !CORRIDORS.contains(&(scale * corridor))) {
             return Err(AssembleError::Scale { scale, corridor: scale * corridor });
@@ -213,19 +260,28 @@ impl Maze {
         let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
         tell(Stage::Way);
-        let ball_radius = options.ball_radius.unwrap_or(BallSpec::RADIUS);
+        let wishes = Wishes {
+            exact: [options.start, options.goal],
+            near: ends.map(|end| end.map(|end| Vector2::new(frame.x(end.x), frame.y(end.y)))),
+        };
         // In corridors, which are 1 unit wide unless a scale was asked for.
-        let wide = options.scale.and_then(|scale| Radius::new(ball_radius.units() * scale * corridor));
-        let in_corridors = ball_radius.units();
-        let ball_radius = wide.unwrap_or(ball_radius);
+        let width = options.scale.map_or(1.0, |scale| scale * corridor);
+        let asked = options.ball_radius.unwrap_or(BallSpec::RADIUS).units();
         // What the ball does not fit through is a chink, not an opening.
         let mut openings = section.openings();
-        openings.retain(|opening| 2.0 * ball_radius.units() <= opening.end - opening.start);
-        let reach = Reach::new(&section, ball_radius.units());
-        let way = Way::choose(&reach, &openings, ball_radius.units())
-            .ok_or(AssembleError::NoRoom { radius: in_corridors })?
-            .moved(&reach, options.start, options.goal)
-            .map_err(|place| AssembleError::NotFree { x: place.x, y: place.y })?;
+        openings.retain(|opening| 2.0 * asked * width <= opening.end - opening.start);
+        let find = |radius: f64| {
+            let reach = Reach::new(&section, radius * width);
+            Way::find(&reach, &openings, radius * width, &wishes).map(|way| (reach, way))
+        };
+        let found = find(asked);
+        let is_solvable = found.as_ref().is_ok_and(|(_, way)| way.solvable);
+        let passing = if is_solvable { None } else { largest_passing(asked, &find) };
+        let (in_corridors, found) = match (passing, options.ball_radius) {
+            (Some(passing), None) => (passing, find(passing)),
+            _ => (asked, found),
+        };
+        let (reach, way) = found.map_err(|error| AssembleError::of_way(error, asked))?;
         let wall_height = frame.z(survey.top_z);
         tell(Stage::Surface);
         Ok(Self {
@@ -234,7 +290,8 @@ impl Maze {
             openings,
             bounds,
             wall_height,
-            ball_radius,
+            ball_radius: Radius::new(in_corridors * width).ok_or(AssembleError::NoRoom { radius: asked })?,
+            passing_radius: passing.and_then(Radius::new),
             start: way.start,
             goal: way.goal,
             goal_radius: GOAL_RADIUS,
@@ -251,6 +308,56 @@ impl Maze {
             doubtful_part: section.doubtful_part,
         })
     }
+}
+
+/// The plan with the walls that end below the height at which the others are cut; `None` where there are none. Where they spoil
+/// the plan they are not met, and noted.
+fn with_low_walls(
+    survey: &mut Survey,
+    section: &Section,
+    radius: f64,
+) -> Result<Option<Section>, AssembleError> {
+    let low = survey.low_walls(radius);
+    survey.note_unmet(low.climbed, "lower than a fifth of the ball's radius: drawn, and rolled over");
+    if low.planes.is_empty() {
+        return Ok(None);
+    }
+    let mut cut = survey.cut_walls()?;
+    cut.extend(low.planes);
+    match Section::new(&cut) {
+        Ok(with)
+            if with.thickened_to.is_some() == section.thickened_to.is_some()
+                && with.doubtful_part <= section.doubtful_part + MAX_ADDED_DOUBT
+                && with.corridor().is_some() =>
+        {
+            Ok(Some(with))
+        }
+        _ => {
+            survey.note_unmet(low.walls, "lower than the walls are cut, and not closed: drawn, never met");
+            Ok(None)
+        }
+    }
+}
+
+/// The largest radius below the one asked for, in corridors, for which a path leads from start to goal. What a ball passes a
+/// smaller one does too, so it is found by bisection.
+fn largest_passing<T>(asked: f64, find: &impl Fn(f64) -> Result<(T, Way), WayError>) -> Option<f64> {
+    let radius = |hundredths: u8| f64::from(hundredths) / 100.0;
+    let passes = |hundredths: u8| find(radius(hundredths)).is_ok_and(|(_, way)| way.solvable);
+    let tried = TRIED_RADII.filter(|hundredths| radius(*hundredths) < asked);
+    let (mut low, mut high) = (*TRIED_RADII.start(), tried.last()?);
+    if !passes(low) {
+        return None;
+    }
+    while low < high {
+        let middle = (low + high).div_ceil(2);
+        if passes(middle) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    Some(radius(low))
 }
 
 /// A board is flat: the axis of the smallest extent, y (the custom of modelling programs) before z before x on a tie; then

@@ -139,30 +139,18 @@ impl Blocks {
     /// Too many blocks, blocks that make no maze, and ends where the ball does not fit.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let [xs, ys] = self.edges();
-        let of_height = |height| {
-            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |k| self.line(k), height);
-            maze_of_grid([xs.len(), ys.len()], mesh, options)
-        };
-        let mut maze = of_height(WALL_HEIGHT)?;
-        if maze.scale != 1.0 {
-            // Only now it is known how many blocks make a corridor.
-            maze = of_height(WALL_HEIGHT / maze.scale)?;
-        }
-        if self.ends == [None; 2] {
-            return Ok(maze);
-        }
-        let middle = |values: &[usize]| {
-            let ends = values.first().zip(values.last());
-            ends.map_or(0.0, |(low, high)| (self.line(*low) + self.line(*high)) / 2.0)
-        };
         let point = |[x, y]: [usize; 2]| {
             let [x, y] = [x, y].map(|at| (self.line(at) + self.line(at + 1)) / 2.0);
-            Vector2::new(x - middle(&xs), y - middle(&ys)) * maze.scale
+            Vector2::new(x, y)
         };
-        // What the user asks for goes before what the file says.
-        let [start, goal] = self.ends.map(|end| end.map(point));
-        maze.with_ends(options.start.or(start), options.goal.or(goal))
-            .map_err(|end| BlocksError::NoRoomAt { end, name: ["start", "goal"][end] })
+        let ends = self.ends.map(|end| end.map(point));
+        let of_height = |height| {
+            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |k| self.line(k), height);
+            maze_of_grid([xs.len(), ys.len()], mesh, options, ends)
+        };
+        let maze = of_height(WALL_HEIGHT)?;
+        // Only now it is known how many blocks make a corridor.
+        if maze.scale != 1.0 { of_height(WALL_HEIGHT / maze.scale) } else { Ok(maze) }
     }
 }
 
@@ -173,7 +161,7 @@ impl Layout {
     /// Too many cells.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let lines = [self.width(), self.height()].map(|n| 2 * n + 2);
-        maze_of_grid(lines, || extrude::extrude(self), options)
+        maze_of_grid(lines, || extrude::extrude(self), options, [None; 2])
     }
 }
 
@@ -182,6 +170,7 @@ fn maze_of_grid(
     [n_x, n_y]: [usize; 2],
     mesh: impl Fn() -> PolygonMesh,
     options: &AssembleOptions,
+    ends: [Option<Vector2<f64>>; 2],
 ) -> Result<Maze, BlocksError> {
     if MAX_PIECES < n_x.saturating_mul(n_y) {
         return Err(BlocksError::TooFine { n_x, n_y });
@@ -191,7 +180,10 @@ fn maze_of_grid(
         return Err(BlocksError::TooLarge { n_faces: mesh.n_faces() });
     }
     let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-    Ok(Maze::from_polygons(&mesh, &options)?)
+    Maze::assembled(&mesh, &options, ends, &mut |_| ()).map_err(|error| match error {
+        AssembleError::NoRoomNear { end } => BlocksError::NoRoomAt { end, name: ["start", "goal"][end] },
+        error => error.into(),
+    })
 }
 
 #[allow(clippy::cast_precision_loss, reason = "a side has far fewer than 2^53 blocks")]

@@ -130,6 +130,7 @@ impl Covers {
                 reason: "a roof over the corridors: not drawn",
                 n_faces,
                 area_part,
+                is_unmet: false,
             });
         }
     }

@@ -35,6 +35,8 @@ pub struct FaceNote {
     pub n_faces: usize,
     /// Their part of the area of all faces, 0..=1.
     pub area_part: f64,
+    /// Whether they are drawn although the ball never meets them, which a player has to know.
+    pub is_unmet: bool,
 }
 
 /// A maze in maze units, its centre at the origin and its floor at z = 0.
@@ -52,6 +54,9 @@ pub struct Maze {
     pub wall_height: f64,
     /// The ball this maze is played with.
     pub ball_radius: Radius,
+    /// The largest ball, in corridors and steps of 0.01, for which a path leads from start to goal, where there is none for the one
+    /// that was asked for, or for the usual one. The maze is played with it unless another one was asked for.
+    pub passing_radius: Option<Radius>,
     /// Where the ball's centre starts.
     pub start: Vector2<f64>,
     /// Where it has to get.
@@ -83,10 +88,6 @@ pub struct Maze {
     pub doubtful_part: f64,
 }
 
-/// How far from a wished start or goal the ball may be put (units): where a corridor is several blocks wide, the ball's
-/// centre does not get to the middle of the blocks beside a wall.
-const MAX_SHIFT: f64 = 0.5;
-
 impl Maze {
     /// Length of the shortest way from start to goal (corridors), along the axes through the middles of the corridors;
     /// `None` when there is no way.
@@ -106,44 +107,6 @@ impl Maze {
 
     fn ends(&self) -> Option<[usize; 2]> {
         Some([self.reach.cell_at(self.start)?, self.reach.cell_at(self.goal)?])
-    }
-
-    /// The same maze from another start, or to another goal, or both (units), each the nearest place to the wished one where
-    /// the ball fits. Of start and goal as they were, the one farther away stays the other end where only one is given.
-    ///
-    /// # Errors
-    /// 0 when the ball fits nowhere near the start, 1 when it does not near the goal.
-    pub(crate) fn with_ends(
-        mut self,
-        start: Option<Vector2<f64>>,
-        goal: Option<Vector2<f64>>,
-    ) -> Result<Self, usize> {
-        let before = [self.start, self.goal];
-        let mut ends = [None; 2];
-        for (end, wished) in [start, goal].into_iter().enumerate() {
-            let Some(wished) = wished else { continue };
-            ends[end] = Some(self.reach.nearest(wished, MAX_SHIFT).ok_or(end)?);
-        }
-        let far_from = |cell: usize| {
-            let distances = self.reach.distances_from(cell);
-            let length = |point: Vector2<f64>| {
-                let length = self.reach.cell_at(point).map_or(f64::INFINITY, |cell| distances.to(cell));
-                if length.is_finite() { length } else { -1.0 }
-            };
-            let [start, goal] = before;
-            let point = if length(start) < length(goal) { goal } else { start };
-            self.reach.cell_at(point).map(|cell| (cell, point))
-        };
-        let ends = match ends {
-            [Some(start), None] => [Some(start), far_from(start.0)],
-            [None, Some(goal)] => [far_from(goal.0), Some(goal)],
-            ends => ends,
-        };
-        if let [Some((from, start)), Some((to, goal))] = ends {
-            self.solvable = self.reach.distances_from(from).to(to).is_finite();
-            (self.start, self.goal) = (start, goal);
-        }
-        Ok(self)
     }
 }
 

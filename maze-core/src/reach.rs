@@ -172,29 +172,40 @@ impl Reach {
         (goal != usize::MAX).then_some((ways, [0, goal]))
     }
 
-    /// A cell of the connected region with the most cells; `None` when nothing is free.
+    /// A cell of the connected region with the largest area; `None` when nothing is free.
     pub(crate) fn largest_region(&self) -> Option<usize> {
         let mut unseen = self.free.clone();
-        let mut largest: Option<(usize, usize)> = None; // (cells, one of them)
+        let mut largest: Option<(f64, usize)> = None; // (area, one of its cells)
         for first in 0..unseen.len() {
             if !unseen[first] {
                 continue;
             }
             unseen[first] = false;
-            let (mut n_cells, mut open) = (0, vec![first]);
+            let (mut area, mut open) = (0.0, vec![first]);
             while let Some(cell) = open.pop() {
-                n_cells += 1;
+                area += self.cell_area(cell);
                 for next in self.neighbours(cell) {
                     if std::mem::take(&mut unseen[next]) {
                         open.push(next);
                     }
                 }
             }
-            if largest.is_none_or(|(known, _)| known < n_cells) {
-                largest = Some((n_cells, first));
+            if largest.is_none_or(|(known, _)| known < area) {
+                largest = Some((area, first));
             }
         }
         largest.map(|(_, cell)| cell)
+    }
+
+    /// Area of all cells that have a path (units squared).
+    pub(crate) fn area(&self, distances: &Distances) -> f64 {
+        let reached = distances.0.iter().enumerate().filter(|(_, distance)| distance.is_finite());
+        reached.map(|(cell, _)| self.cell_area(cell)).sum()
+    }
+
+    fn cell_area(&self, cell: usize) -> f64 {
+        let (i, j) = (cell % self.n_x(), cell / self.n_x());
+        (self.xs[i + 1] - self.xs[i]) * (self.ys[j + 1] - self.ys[j])
     }
 
     /// Shortest ways from one free cell to all others (Dijkstra, between the cells' middles).

@@ -12,6 +12,13 @@ use std::ops::RangeInclusive;
 /// Where between floor and wall tops the walls are cut: below the middle, where many files have a seam.
 const CUT_PART: f64 = 0.47;
 
+/// A ball climbs what is lower than this part of its radius: at the game's steepest tilt of 20 degrees 0.06, some more with
+/// speed.
+const CLIMBED_PART: f64 = 0.2;
+
+/// What rises less than this part of the wall height above the floor is not worth a word.
+const SEEN_PART: f64 = 0.01;
+
 /// Share of the upright and slanted area that may be off axis (and is then met as steps) before the file is no maze of
 /// axis-aligned walls. Rounded corners and a crooked piece stay below it.
 pub(crate) const MAX_OFF_AXIS_PART: f64 = 0.1;
@@ -245,6 +252,37 @@ impl<'a> Survey<'a> {
         if cut.is_empty() { Err(AssembleError::NothingCut { height: above_floor }) } else { Ok(cut) }
     }
 
+    /// The walls that end below the height at which the others are cut, as planes at a height that a ball of this radius (file
+    /// units) cannot climb, and those that are lower still.
+    pub(crate) fn low_walls(&self, radius: f64) -> LowWalls {
+        let (cut_height, low_height) = (self.cut_height(), self.floor_z + CLIMBED_PART * radius);
+        let seen_from = self.floor_z + SEEN_PART * (self.top_z - self.floor_z);
+        let mut low = LowWalls::default();
+        self.each(|kind, corners| {
+            if !matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis) {
+                return;
+            }
+            let top = corners
+                .iter()
+                .map(|corner| corner.z)
+                .fold(f64::NEG_INFINITY, |a, b| if a < b { b } else { a });
+            let area = doubled_area(corners).norm() / 2.0;
+            if low_height < top && top < cut_height {
+                low.walls.add(area);
+                slice::cut(corners, low_height, &mut low.planes);
+            } else if seen_from < top && top < cut_height {
+                low.climbed.add(area);
+            }
+        });
+        low
+    }
+
+    /// Notes walls that are drawn and not met.
+    pub(crate) fn note_unmet(&mut self, walls: Tally, reason: &'static str) {
+        let note = walls.note(reason, self.area);
+        self.ignored.extend(note.map(|note| FaceNote { is_unmet: true, ..note }));
+    }
+
     /// How many corners there are to draw, and how much work it is to cut them into triangles, in squared corners.
     pub(crate) fn drawing_costs(&self) -> (usize, usize) {
         let drawn = self
@@ -283,9 +321,20 @@ pub(crate) fn extent(positions: &[Vector3<f64>]) -> Vector3<f64> {
     high - low
 }
 
+/// Walls that end below the height at which the others are cut.
+#[derive(Default)]
+pub(crate) struct LowWalls {
+    /// Cut near the floor.
+    pub(crate) planes: Vec<Plane>,
+    /// Those that are cut.
+    pub(crate) walls: Tally,
+    /// Those that end below that too: the ball climbs them.
+    pub(crate) climbed: Tally,
+}
+
 /// Number and area of some faces.
 #[derive(Clone, Copy, Default)]
-struct Tally {
+pub(crate) struct Tally {
     n_faces: usize,
     area: f64,
 }
@@ -298,7 +347,7 @@ impl Tally {
 
     fn note(self, reason: &'static str, total: f64) -> Option<FaceNote> {
         let area_part = if 0.0 < total { self.area / total } else { 0.0 };
-        (0 < self.n_faces).then_some(FaceNote { reason, n_faces: self.n_faces, area_part })
+        (0 < self.n_faces).then_some(FaceNote { reason, n_faces: self.n_faces, area_part, is_unmet: false })
     }
 }
 

@@ -7,6 +7,14 @@ use nalgebra::Vector2;
 /// Most separate regions with openings that are searched for the farthest pair; a maze has one.
 const MAX_REGIONS: usize = 16;
 
+/// How far from a wished start or goal the ball may be put (units): where a corridor is several blocks wide, the ball's
+/// centre does not get to the middle of the blocks beside a wall.
+const MAX_SHIFT: f64 = 0.5;
+
+/// Openings lead into a pocket, and not into the maze, where the longest path between them, or from the only one, is shorter than
+/// this (corridors).
+const POCKET: f64 = 2.0;
+
 /// Start and goal.
 pub(crate) struct Way {
     pub(crate) start: Vector2<f64>,
@@ -14,10 +22,66 @@ pub(crate) struct Way {
     pub(crate) solvable: bool,
 }
 
+/// Where start and goal should be (units); what is exact goes before what is near.
+pub(crate) struct Wishes {
+    /// There and nowhere else.
+    pub(crate) exact: [Option<Vector2<f64>>; 2],
+    /// There, or at the nearest place where the ball fits.
+    pub(crate) near: [Option<Vector2<f64>>; 2],
+}
+
+/// Why there is no start or no goal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum WayError {
+    /// The ball fits nowhere.
+    NoRoom,
+    /// The ball does not fit there.
+    NotFree(Vector2<f64>),
+    /// The ball fits nowhere near where the start (0) or the goal (1) should be.
+    NoRoomNear(usize),
+}
+
 impl Way {
-    /// Two openings of the outer wall, the farthest apart of those joined by a way; with one opening, it is the goal and
-    /// the start is as far as can be; without any, the two ends of the longest way. `None` when the ball fits nowhere.
-    pub(crate) fn choose(reach: &Reach, openings: &[Plane], radius: f64) -> Option<Self> {
+    /// Start and goal where they should be, else as [`Way::choose`] chooses them.
+    pub(crate) fn find(
+        reach: &Reach,
+        openings: &[Plane],
+        radius: f64,
+        wishes: &Wishes,
+    ) -> Result<Self, WayError> {
+        let mut ends: [Option<(usize, Vector2<f64>)>; 2] = [None; 2];
+        for end in [0, 1] {
+            ends[end] = match (wishes.exact[end], wishes.near[end]) {
+                (Some(exact), _) => Some((reach.cell_at(exact).ok_or(WayError::NotFree(exact))?, exact)),
+                (None, Some(near)) => Some(reach.nearest(near, MAX_SHIFT).ok_or(WayError::NoRoomNear(end))?),
+                (None, None) => None,
+            };
+        }
+        if let [Some((from, start)), Some((to, goal))] = ends {
+            let solvable = reach.distances_from(from).to(to).is_finite();
+            return Ok(Self { start, goal, solvable });
+        }
+        let chosen = Self::choose(reach, openings, radius).ok_or(WayError::NoRoom)?;
+        let Some((cell, given)) = ends[0].or(ends[1]) else { return Ok(chosen) };
+        // Of the two that would have been chosen the one farther away becomes the other end.
+        let distances = reach.distances_from(cell);
+        let length = |point: Vector2<f64>| {
+            let length = reach.cell_at(point).map_or(f64::INFINITY, |cell| distances.to(cell));
+            if length.is_finite() { length } else { -1.0 }
+        };
+        let nearer_goal = length(chosen.goal) < length(chosen.start);
+        let other = if nearer_goal { chosen.start } else { chosen.goal };
+        let solvable = 0.0 <= length(other);
+        Ok(match ends[0] {
+            Some(_) => Self { start: given, goal: other, solvable },
+            None => Self { start: other, goal: given, solvable },
+        })
+    }
+
+    /// Two openings of the outer wall, the farthest apart of those joined by a path; with one opening, it is the goal and
+    /// the start is as far as can be; without any, the two ends of the longest path. Openings into pockets outside of the maze
+    /// are none. `None` when the ball fits nowhere.
+    fn choose(reach: &Reach, openings: &[Plane], radius: f64) -> Option<Self> {
         let doors: Vec<(Vector2<f64>, usize)> = openings
             .iter()
             .filter_map(|opening| {
@@ -27,14 +91,15 @@ impl Way {
                 reach.cell_at(door).map(|cell| (door, cell))
             })
             .collect();
+        let main = reach.largest_region()?;
+        let doors = without_pockets(reach, doors, main);
         if let [first, second, ..] = doors[..] {
             return Some(Self::between_doors(reach, &doors, [first.0, second.0]));
         }
         let (near_end, goal) = match doors.first() {
             Some(&(door, cell)) => (cell, door),
             None => {
-                let any = reach.largest_region()?;
-                let end = reach.distances_from(any).farthest();
+                let end = reach.distances_from(main).farthest();
                 (end, reach.middle(end))
             }
         };
@@ -43,23 +108,6 @@ impl Way {
             true => Self::upper_left_first(far_end, goal, true),
             false => Self { start: far_end, goal, solvable: true },
         })
-    }
-
-    /// The way with an end moved to where the user wants it. `None` when the ball does not fit there: the place.
-    pub(crate) fn moved(
-        self,
-        reach: &Reach,
-        start: Option<Vector2<f64>>,
-        goal: Option<Vector2<f64>>,
-    ) -> Result<Self, Vector2<f64>> {
-        if start.is_none() && goal.is_none() {
-            return Ok(self);
-        }
-        let (start, goal) = (start.unwrap_or(self.start), goal.unwrap_or(self.goal));
-        let cell = |point: Vector2<f64>| reach.cell_at(point).ok_or(point);
-        let (from, to) = (cell(start)?, cell(goal)?);
-        let solvable = reach.distances_from(from).to(to).is_finite();
-        Ok(Self { start, goal, solvable })
     }
 
     fn between_doors(reach: &Reach, doors: &[(Vector2<f64>, usize)], unjoined: [Vector2<f64>; 2]) -> Self {
@@ -93,6 +141,39 @@ impl Way {
         let (start, goal) = if swap { (b, a) } else { (a, b) };
         Self { start, goal, solvable }
     }
+}
+
+/// The doors that lead into the maze: all when one of them leads into its largest region, but for those into pockets; else those
+/// into regions that are no smaller than half of it.
+fn without_pockets(
+    reach: &Reach,
+    doors: Vec<(Vector2<f64>, usize)>,
+    main: usize,
+) -> Vec<(Vector2<f64>, usize)> {
+    let from_main = reach.distances_from(main);
+    let is_main = |cell: usize| from_main.to(cell).is_finite();
+    if doors.iter().all(|(_, cell)| is_main(*cell)) {
+        return doors;
+    }
+    let has_main = doors.iter().any(|(_, cell)| is_main(*cell));
+    let main_area = reach.area(&from_main);
+    drop(from_main);
+    // Doors of one region are judged together.
+    let mut judged: Vec<Option<bool>> = vec![None; doors.len()];
+    for _ in 0..MAX_REGIONS {
+        let Some(first) = judged.iter().position(Option::is_none) else { break };
+        let distances = reach.distances_from(doors[first].1);
+        let longest = distances.to(distances.farthest());
+        let is_large = main_area <= 2.0 * reach.area(&distances);
+        let leads = is_large || (has_main && POCKET <= longest);
+        for (judged, (_, cell)) in judged.iter_mut().zip(&doors) {
+            if distances.to(*cell).is_finite() {
+                *judged = Some(leads);
+            }
+        }
+    }
+    let kept = doors.into_iter().zip(judged).filter(|(_, leads)| leads.unwrap_or(true));
+    kept.map(|(door, _)| door).collect()
 }
 
 /// Distance and index of the farthest door that has a way, the first one on a tie.

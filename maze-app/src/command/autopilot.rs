@@ -1,5 +1,6 @@
 //! `maze-app autopilot`: plays to the goal without a window.
 
+use crate::command::info::no_path;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
@@ -40,7 +41,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut game = Game::new(source.load()?, arguments.engine)?;
     let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
-        return Err(Failure::not_held(format!("{}: no way leads from start to goal", source.title())));
+        return Err(no_path(&source, game.maze()));
     };
     let mut n_bounces = 0_u64;
     let mut deepest_penetration = 0.0_f64;

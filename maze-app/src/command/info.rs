@@ -6,7 +6,7 @@ use crate::maze_file::Loaded;
 use crate::measures;
 use crate::source::{KnownMazeArguments, Source};
 use clap::Args;
-use maze_core::{FaceNote, Facing, Maze, Plane};
+use maze_core::{BallSpec, FaceNote, Facing, Maze, Plane, Radius};
 use serde_json::{Map, Value, json};
 
 #[derive(Args)]
@@ -46,10 +46,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     files::print(&text)?;
-    if maze.solvable {
-        return Ok(());
-    }
-    Err(Failure::not_held(format!("{}: no way leads from start to goal", source.name())))
+    if maze.solvable { Ok(()) } else { Err(no_path(&source, &maze)) }
+}
+
+/// No path leads from start to goal; where a smaller ball has one, which.
+pub(crate) fn no_path(source: &Source, maze: &Maze) -> Failure {
+    let hint = maze.passing_radius.map(|radius| format!("; a ball of radius {} passes", radius.units()));
+    let hint = hint.unwrap_or_default();
+    Failure::not_held(format!("{}: no way leads from start to goal{hint}", source.name()))
 }
 
 fn table(maze: &Maze, facing: Facing) -> Vec<[f64; 3]> {
@@ -91,7 +95,10 @@ fn by_facing(count: impl Fn(Facing) -> usize) -> Value {
 fn summary(maze: &Maze, found: Option<&str>) -> Value {
     let point = |point: nalgebra::Vector2<f64>| json!([point.x, point.y]);
     let notes = |notes: &[FaceNote]| {
-        let note = |note: &FaceNote| json!({ "reason": note.reason, "faces": note.n_faces, "area_part": note.area_part });
+        let note = |note: &FaceNote| {
+            let (reason, faces, area_part) = (note.reason, note.n_faces, note.area_part);
+            json!({ "reason": reason, "faces": faces, "area_part": area_part, "drawn_not_met": note.is_unmet })
+        };
         notes.iter().map(note).collect::<Vec<_>>()
     };
     let openings = maze.openings.iter().map(|opening| {
@@ -106,6 +113,7 @@ fn summary(maze: &Maze, found: Option<&str>) -> Value {
         "up_axis": maze.up_axis.name(),
         "scale": maze.scale,
         "ball_radius": maze.ball_radius.units(),
+        "passing_radius": maze.passing_radius.map(Radius::units),
         "start": point(maze.start),
         "goal": point(maze.goal),
         "solvable": maze.solvable,
@@ -133,7 +141,7 @@ fn summary_text(maze: &Maze) -> String {
         format!("rows         {}", counts(&|facing| maze.planes.n_rows(facing))),
         format!("bounds       {:.3} x {:.3} corridors, walls {:.3} high", size.x, size.y, maze.wall_height),
         format!("up axis      {} (1 unit of the file is {:.6} corridors)", maze.up_axis.name(), maze.scale),
-        format!("ball radius  {}", maze.ball_radius.units()),
+        ball_line(maze),
         format!("start        {:.3}, {:.3}", maze.start.x, maze.start.y),
         format!("goal         {:.3}, {:.3}", maze.goal.x, maze.goal.y),
         format!("solvable     {}", maze.solvable),
@@ -160,6 +168,20 @@ fn summary_text(maze: &Maze) -> String {
     }
     lines.extend(adjustments(maze));
     lines.join("\n") + "\n"
+}
+
+fn ball_line(maze: &Maze) -> String {
+    let radius = maze.ball_radius.units();
+    match maze.passing_radius {
+        Some(_) if maze.solvable => format!(
+            "ball radius  {radius} (the largest that passes, in hundredths of a corridor; the usual {} does not)",
+            BallSpec::RADIUS.units()
+        ),
+        Some(passing) => {
+            format!("ball radius  {radius} (does not pass; the largest that does has {})", passing.units())
+        }
+        None => format!("ball radius  {radius}"),
+    }
 }
 
 /// By how much the walls were turned in the file, counter-clockwise seen from above.

@@ -79,6 +79,8 @@ pub(crate) struct Labels {
     title: String,
     /// In small letters: what the maze is like.
     facts: String,
+    /// What of the maze is not as it looks, or not as usual.
+    remarks: Vec<String>,
     par_ticks: Option<u64>,
     onwards: Onwards,
 }
@@ -90,6 +92,7 @@ impl Labels {
         Self {
             title: source.title(),
             facts: way.into_iter().chain(difficulty).collect::<Vec<_>>().join("   "),
+            remarks: remarks(maze),
             par_ticks: source.par_ticks(),
             onwards: source.onwards(),
         }
@@ -103,6 +106,17 @@ impl Labels {
             Onwards::NextLevel => Some("next level"),
         }
     }
+}
+
+/// What a player has to know about a maze.
+fn remarks(maze: &Maze) -> Vec<String> {
+    let ball = maze.passing_radius.map(|radius| match maze.solvable {
+        true => format!("a ball of {}: the usual one does not pass", radius.units()),
+        false => format!("no path for this ball: one of {} passes", radius.units()),
+    });
+    let unmet: usize = maze.ignored.iter().filter(|note| note.is_unmet).map(|note| note.n_faces).sum();
+    let unmet = (unmet != 0).then(|| format!("{unmet} low faces are drawn and not met"));
+    ball.into_iter().chain(unmet).collect()
 }
 
 /// Once for a context: dark glass, warm text.
@@ -144,6 +158,10 @@ impl Hud<'_> {
                 // Extended, not wrapped: egui would keep to the width of the last maze's name.
                 for text in [RichText::new(&self.labels.title), RichText::new(facts).size(11.0)] {
                     let label = egui::Label::new(text.color(QUIET_INK));
+                    ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
+                }
+                for remark in &self.labels.remarks {
+                    let label = egui::Label::new(RichText::new(remark).size(11.0).color(GOLD));
                     ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
                 }
             });
