@@ -1,5 +1,6 @@
 //! What each fuzz target does with any bytes. `maze-core/tests/any_bytes.rs` does the same in `cargo test`.
 
+use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
 use maze_core::{AssembleOptions, Blocks, Layout, Maze, UpAxis, export, extrude, import};
 
@@ -80,21 +81,25 @@ fn margins(blocks: &Blocks) -> [usize; 3] {
     [left, (0..height).take_while(is_empty_row).count(), (0..height).rev().take_while(is_empty_row).count()]
 }
 
-/// A picture: two bytes for its size, the others are pixels, repeated as needed.
+/// A picture: two bytes for its size, the others are pixels, repeated as needed; most are grey, some have a colour.
 pub(crate) fn picture(bytes: &[u8]) {
     let [width, height, pixels @ ..] = bytes else { return };
     let [width, height] = [*width, *height].map(usize::from);
-    let pixels: Vec<u8> = pixels.iter().copied().cycle().take(width * height).collect();
-    let Ok(picture) = import::picture::read(width, height, &pixels) else { return };
-    assert_eq!(picture.blocks.width() * picture.cell + picture.left + right_margin(width, &pixels), width);
-    if picture.blocks.width() * picture.blocks.height() < 4000 {
-        let _ = picture.maze(&AssembleOptions::default());
+    let colour = |byte: u8| match byte {
+        3 => [220, 20, 30],
+        5 => [20, 210, 40],
+        grey => [grey; 3],
+    };
+    let pixels: Vec<[u8; 3]> = pixels.iter().copied().cycle().take(width * height).map(colour).collect();
+    for wall in [None, Some(WallTone::Dark), Some(WallTone::Light)] {
+        let Ok(picture) = import::picture::read(width, height, &pixels, wall) else { continue };
+        let (n_x, n_y) = (picture.blocks.width(), picture.blocks.height());
+        assert!(picture.left + n_x * picture.cell <= width && picture.top + n_y * picture.cell <= height);
+        assert!(!picture.found().contains('\n'));
+        if n_x * n_y < 4000 {
+            let _ = picture.maze(&AssembleOptions::default());
+        }
     }
-}
-
-/// Columns without a dark pixel at the right.
-fn right_margin(width: usize, pixels: &[u8]) -> usize {
-    (0..width).rev().take_while(|x| pixels.chunks(width).all(|row| 128 <= row[*x])).count()
 }
 
 /// Any layout: through OBJ, SVG and text and back.

@@ -1,7 +1,7 @@
 //! Files in and out; an output is whole or not there.
 
 use crate::failure::Failure;
-use maze_render::{TextureSet, decode_bmp};
+use maze_render::{TextureSet, decode_texture};
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -139,12 +139,13 @@ pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> 
     let load = |name: &str, built_in: &'static [u8]| {
         let (shown, bytes) = match directory {
             Some(directory) => {
-                let path = directory.join(name);
+                let [bmp, png] = ["bmp", "png"].map(|ending| directory.join(name).with_extension(ending));
+                let path = if !bmp.exists() && png.exists() { png } else { bmp };
                 (path.display().to_string(), read(&path)?)
             }
             None => (name.to_owned(), built_in.to_vec()),
         };
-        decode_bmp(&shown, &bytes).map_err(Failure::bad_input)
+        decode_texture(&shown, &bytes).map_err(Failure::bad_input)
     };
     Ok(TextureSet {
         wall: load("wall.bmp", include_bytes!("../../assets/textures/wall.bmp"))?,

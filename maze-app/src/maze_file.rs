@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::progress::Progress;
 use crate::{files, picture};
+use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
 use maze_core::{AssembleOptions, Layout, Maze, Stage, export, extrude, import};
 use std::path::Path;
@@ -70,8 +71,17 @@ impl From<Maze> for Loaded {
     }
 }
 
+/// What the user says about the content of a file, where it cannot be told.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Hints {
+    /// What the signs of a text mean.
+    pub(crate) signs: TextOptions,
+    /// Which pixels of a picture are walls.
+    pub(crate) wall: Option<WallTone>,
+}
+
 /// Reads a maze file; the kind is told by its name's ending.
-pub(crate) fn load(path: &Path, options: &AssembleOptions, signs: &TextOptions) -> Result<Loaded, Failure> {
+pub(crate) fn load(path: &Path, options: &AssembleOptions, hints: &Hints) -> Result<Loaded, Failure> {
     let kind = Kind::of_name(path, &KINDS)?;
     let progress = Progress::of_file(path);
     progress.tell("reading");
@@ -87,8 +97,11 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions, signs: &TextOptions) 
     }
     let read = move || -> Result<Loaded, String> {
         match kind {
-            _ if kind != Kind::Text && !signs.is_empty() => {
+            _ if kind != Kind::Text && !hints.signs.is_empty() => {
                 Err(format!("text signs are for .txt files: a .{} has none", kind.ending()))
+            }
+            _ if !matches!(kind, Kind::Png | Kind::Bmp) && hints.wall.is_some() => {
+                Err(format!("dark or light walls are for pictures: a .{} has none", kind.ending()))
             }
             Kind::Obj => {
                 let mesh = import::obj::read(&bytes).map_err(|error| error.to_string())?;
@@ -105,12 +118,12 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions, signs: &TextOptions) 
                 Err(format!("a scale is for .obj files: a .{} has cells", kind.ending()))
             }
             Kind::Text => {
-                let text = import::text::read(&bytes, signs).map_err(|error| error.to_string())?;
+                let text = import::text::read(&bytes, &hints.signs).map_err(|error| error.to_string())?;
                 let maze = text.maze(options).map_err(|error| error.to_string())?;
                 Ok(Loaded { maze, found: Some(text.found) })
             }
             Kind::Svg => svg(&bytes, options),
-            Kind::Png | Kind::Bmp => picture::maze(&bytes, options),
+            Kind::Png | Kind::Bmp => picture::maze(&bytes, options, hints.wall),
         }
     };
     read().map_err(|reason| Failure::in_file(path, reason))

@@ -3,30 +3,42 @@
 use crate::maze_file::Loaded;
 use image::{DynamicImage, GenericImageView, ImageDecoder, ImageFormat, ImageReader, Limits};
 use maze_core::AssembleOptions;
-use maze_core::import::picture::{self, MAX_PIXELS};
+use maze_core::import::picture::{self, MAX_PIXELS, WallTone};
 use std::io::Cursor;
 
 /// Most bytes that a decoder may ask for: all pixels with four channels of 16 bits, and as much again to work in.
 const MAX_BYTES: u64 = 16 * MAX_PIXELS as u64;
 
 /// The maze of a PNG or BMP.
-pub(crate) fn maze(bytes: &[u8], options: &AssembleOptions) -> Result<Loaded, String> {
-    let (width, height, brightness) = brightness(bytes)?;
-    let picture = picture::read(width, height, &brightness).map_err(|error| error.to_string())?;
-    drop(brightness);
+pub(crate) fn maze(
+    bytes: &[u8],
+    options: &AssembleOptions,
+    wall: Option<WallTone>,
+) -> Result<Loaded, String> {
+    let (width, height, rgb) = colours(bytes)?;
+    let picture = picture::read(width, height, &rgb, wall).map_err(|error| error.to_string())?;
+    drop(rgb);
     let maze = picture.maze(options).map_err(|error| error.to_string())?;
-    let (n_x, n_y, cell) = (picture.blocks.width(), picture.blocks.height(), picture.cell);
-    let found = format!("{width} x {height} pixels, {n_x} x {n_y} cells of {cell} x {cell} pixels");
+    let found = format!("{width} x {height} pixels, {}", picture.found());
     Ok(Loaded { maze, found: Some(found) })
 }
 
-/// Width, height and the brightness of each pixel on white paper, row by row from the top.
-fn brightness(bytes: &[u8]) -> Result<(usize, usize, Vec<u8>), String> {
-    let unreadable = |error: image::ImageError| format!("{error}: expected a PNG or BMP picture");
+/// Width, height and the colour of each pixel on white paper, row by row from the top.
+fn colours(bytes: &[u8]) -> Result<(usize, usize, Vec<[u8; 3]>), String> {
+    if bytes.is_empty() {
+        return Err("the file is empty: expected a PNG or BMP picture".to_owned());
+    }
     let format = image::guess_format(bytes)
         .ok()
         .filter(|format| matches!(format, ImageFormat::Png | ImageFormat::Bmp));
     let format = format.ok_or("not a PNG or BMP picture")?;
+    let name = if format == ImageFormat::Png { "PNG" } else { "BMP" };
+    let unreadable = |error: image::ImageError| match &error {
+        image::ImageError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => {
+            format!("the picture is cut off after {} bytes: expected a whole {name}", bytes.len())
+        }
+        _ => format!("{error}: expected a {name} picture that can be read"),
+    };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_BYTES);
@@ -38,15 +50,20 @@ fn brightness(bytes: &[u8]) -> Result<(usize, usize, Vec<u8>), String> {
         return Err(picture::PictureError::Size { width, height }.to_string());
     }
     let image = DynamicImage::from_decoder(decoder).map_err(unreadable)?;
-    Ok((width, height, image.pixels().map(|(_, _, image::Rgba(rgba))| on_white(rgba)).collect()))
+    // A BMP of 32 bits whose fourth byte is 0 everywhere does not use it.
+    let is_opaque =
+        format == ImageFormat::Bmp && image.pixels().all(|(_, _, image::Rgba(rgba))| rgba[3] == 0);
+    let colour = |[r, g, b, alpha]: [u8; 4]| if is_opaque { [r, g, b] } else { on_white([r, g, b, alpha]) };
+    Ok((width, height, image.pixels().map(|(_, _, image::Rgba(rgba))| colour(rgba)).collect()))
 }
 
-/// Rec. 601 luma of a pixel laid over white.
-fn on_white([r, g, b, alpha]: [u8; 4]) -> u8 {
-    let luma = (299 * u32::from(r) + 587 * u32::from(g) + 114 * u32::from(b)) / 1000;
+/// A pixel laid over white.
+fn on_white([r, g, b, alpha]: [u8; 4]) -> [u8; 3] {
     let alpha = u32::from(alpha);
-    let over = (luma * alpha + 255 * (255 - alpha)) / 255;
-    u8::try_from(over).unwrap_or(u8::MAX)
+    [r, g, b].map(|channel| {
+        let over = (u32::from(channel) * alpha + 255 * (255 - alpha)) / 255;
+        u8::try_from(over).unwrap_or(u8::MAX)
+    })
 }
 
 #[cfg(test)]
@@ -85,7 +102,7 @@ mod tests {
             (&wide, ImageFormat::Png),
             (&glass, ImageFormat::Png),
         ] {
-            let loaded = maze(&encoded(image, format), &options).unwrap();
+            let loaded = maze(&encoded(image, format), &options, None).unwrap();
             assert_eq!(loaded.maze.planes, expected.planes, "{:?} {format:?}", image.color());
             let cell = image.width() / 6;
             let words = format!("6 x 4 cells of {cell} x {cell} pixels");
@@ -108,12 +125,12 @@ mod tests {
         }
         png[29..33].copy_from_slice(&(!crc).to_be_bytes());
         let expected = "60000 x 60000 pixels: expected at least 1 and at most 4194304 in all";
-        let error = brightness(&png).unwrap_err();
+        let error = colours(&png).unwrap_err();
         assert_eq!(error, expected);
         let mut bmp = encoded(&DynamicImage::from(GrayImage::new(8, 8)), ImageFormat::Bmp);
         bmp[18..22].copy_from_slice(&60_000_u32.to_le_bytes());
         bmp[22..26].copy_from_slice(&60_000_u32.to_le_bytes());
-        let error = brightness(&bmp).unwrap_err();
+        let error = colours(&bmp).unwrap_err();
         assert_eq!(error, expected);
     }
 
@@ -122,9 +139,9 @@ mod tests {
         for format in [ImageFormat::Png, ImageFormat::Bmp] {
             let bytes = encoded(&DynamicImage::from(GrayImage::new(9, 5)), format);
             for end in 0..bytes.len() {
-                let _ = maze(&bytes[..end], &AssembleOptions::default());
+                let _ = maze(&bytes[..end], &AssembleOptions::default(), None);
             }
-            assert!(brightness(&bytes[..bytes.len() / 2]).is_err());
+            assert!(colours(&bytes[..bytes.len() / 2]).is_err());
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::failure::Failure;
 use crate::levels::{self, Level, N_LEVELS};
-use crate::maze_file::{self, Loaded};
+use crate::maze_file::{self, Hints, Loaded};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
-use crate::sidecar::{Sidecar, TextSigns, parse_up_axis, radius_in_range};
+use crate::sidecar::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name};
 use clap::Args;
+use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
 use std::path::{Path, PathBuf};
@@ -23,6 +24,9 @@ pub(crate) struct ReadArguments {
     /// [default: found]
     #[arg(long, value_name = "KEY=SIGNS", value_parser = parse_signs)]
     text: Vec<(SignKey, String)>,
+    /// Which pixels of a picture are walls, dark or light [default: found]
+    #[arg(long, value_name = "TONE", value_parser = parse_tone)]
+    walls: Option<WallTone>,
 }
 
 /// What signs of a text can be stated to be.
@@ -89,7 +93,8 @@ impl ReadArguments {
             SignKey::ALL.into_iter().find(|(known, _)| *known == key).map_or("", |(_, name)| name)
         };
         let signs = self.text.iter().map(|(key, signs)| format!("--text={}={signs}", name(*key)));
-        [radius, up].into_iter().flatten().chain(signs).collect()
+        let walls = self.walls.map(|tone| format!("--walls={}", tone_name(tone)));
+        [radius, up, walls].into_iter().flatten().chain(signs).collect()
     }
 
     /// The signs that flags state; of two statements the last one counts.
@@ -121,7 +126,9 @@ impl ReadArguments {
     /// Reads a maze file and the sidecar beside it; the kind is told by its name's ending.
     pub(crate) fn load(&self, path: &Path) -> Result<Loaded, Failure> {
         let sidecar = Sidecar::beside(path)?;
-        maze_file::load(path, &self.options(&sidecar), &self.signs().or(&sidecar.text))
+        let hints =
+            Hints { signs: self.signs().or(&sidecar.text), wall: self.walls.or(sidecar.picture.wall) };
+        maze_file::load(path, &self.options(&sidecar), &hints)
     }
 
     /// The maze of a recipe.

@@ -11,7 +11,7 @@ use crate::reach::Reach;
 use crate::section::Section;
 use crate::sorted_planes::SortedPlanes;
 use crate::survey::{MAX_OFF_AXIS_PART, Misfit, SIZES, Survey, extent};
-use crate::way::{Way, WayError, Wishes};
+use crate::way::{self, Way, WayError, Wishes};
 use nalgebra::{Vector2, Vector3};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -282,6 +282,8 @@ impl Maze {
             _ => (asked, found),
         };
         let (reach, way) = found.map_err(|error| AssembleError::of_way(error, asked))?;
+        // A notch in the outer wall that the ball does not fit into is no opening either.
+        openings.retain(|opening| way::door(&reach, opening, in_corridors * width).is_some());
         let wall_height = frame.z(survey.top_z);
         tell(Stage::Surface);
         Ok(Self {
@@ -344,8 +346,8 @@ fn with_low_walls(
 fn largest_passing<T>(asked: f64, find: &impl Fn(f64) -> Result<(T, Way), WayError>) -> Option<f64> {
     let radius = |hundredths: u8| f64::from(hundredths) / 100.0;
     let passes = |hundredths: u8| find(radius(hundredths)).is_ok_and(|(_, way)| way.solvable);
-    let tried = TRIED_RADII.filter(|hundredths| radius(*hundredths) < asked);
-    let (mut low, mut high) = (*TRIED_RADII.start(), tried.last()?);
+    let mut tried = TRIED_RADII.filter(|hundredths| radius(*hundredths) < asked);
+    let (mut low, mut high) = (*TRIED_RADII.start(), tried.next_back()?);
     if !passes(low) {
         return None;
     }

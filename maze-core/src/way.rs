@@ -82,15 +82,8 @@ impl Way {
     /// the start is as far as can be; without any, the two ends of the longest path. Openings into pockets outside of the maze
     /// are none. `None` when the ball fits nowhere.
     fn choose(reach: &Reach, openings: &[Plane], radius: f64) -> Option<Self> {
-        let doors: Vec<(Vector2<f64>, usize)> = openings
-            .iter()
-            .filter_map(|opening| {
-                let mut door = opening.facing.normal() * radius;
-                door[opening.facing.axis()] += opening.offset;
-                door[1 - opening.facing.axis()] = (opening.start + opening.end) / 2.0;
-                reach.cell_at(door).map(|cell| (door, cell))
-            })
-            .collect();
+        let doors: Vec<(Vector2<f64>, usize)> =
+            openings.iter().filter_map(|opening| door(reach, opening, radius)).collect();
         let main = reach.largest_region()?;
         let doors = without_pockets(reach, doors, main);
         if let [first, second, ..] = doors[..] {
@@ -141,6 +134,14 @@ impl Way {
         let (start, goal) = if swap { (b, a) } else { (a, b) };
         Self { start, goal, solvable }
     }
+}
+
+/// Where a ball in the middle of an opening touches the frame, and its cell; `None` when it does not fit there.
+pub(crate) fn door(reach: &Reach, opening: &Plane, radius: f64) -> Option<(Vector2<f64>, usize)> {
+    let mut door = opening.facing.normal() * radius;
+    door[opening.facing.axis()] += opening.offset;
+    door[1 - opening.facing.axis()] = (opening.start + opening.end) / 2.0;
+    reach.cell_at(door).map(|cell| (door, cell))
 }
 
 /// The doors that lead into the maze: all when one of them leads into its largest region, but for those into pockets; else those

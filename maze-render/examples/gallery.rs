@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use maze_render::{CAPTURE_FORMAT, Camera, Gpu, Quality, Renderer, TextureSet, capture, decode_bmp};
+use maze_render::{CAPTURE_FORMAT, Camera, Gpu, Quality, Renderer, TextureSet, capture, decode_texture};
 use nalgebra::{UnitQuaternion, Vector3};
 
 #[path = "../tests/support/mod.rs"]
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
 fn textures() -> Result<TextureSet, Box<dyn std::error::Error>> {
     let read = |name: &str, colour| match std::fs::read(format!("assets/textures/{name}.bmp")) {
-        Ok(bytes) => Ok(decode_bmp(name, &bytes)?),
+        Ok(bytes) => Ok(decode_texture(name, &bytes)?),
         Err(_) => Ok::<_, Box<dyn std::error::Error>>(image::RgbImage::from_pixel(4, 4, image::Rgb(colour))),
     };
     Ok(TextureSet {

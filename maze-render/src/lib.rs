@@ -51,5 +51,5 @@ pub use quality::Quality;
 pub use renderer::Renderer;
 pub use scene::{BallView, GhostView, Line, Marker, Patch, Scene};
 pub use shader::{SHADERS, Shader};
-pub use texture::{TextureError, TextureSet, decode_bmp};
+pub use texture::{TextureError, TextureSet, decode_texture};
 pub use timer::GpuTimer;

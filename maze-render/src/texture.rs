@@ -7,6 +7,9 @@ use image::RgbImage;
 /// Longest side of a texture file. A larger one is a mistake, not a better picture.
 const MAX_SIDE: u32 = 8192;
 
+/// Longest side of a PNG, of which a few bytes may promise any number of pixels.
+const MAX_PNG_SIDE: u32 = 2048;
+
 /// The three surfaces' pictures; each repeats over its surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureSet {
@@ -22,7 +25,9 @@ pub struct TextureSet {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum TextureError {
     /// The signature is missing.
-    #[error("{name}: not a BMP file (starts with {found}), expected a 24-bit uncompressed BMP")]
+    #[error(
+        "{name}: not a BMP or PNG file (starts with {found}), expected a 24-bit uncompressed BMP or a PNG"
+    )]
     NotBmp {
         /// The file's name.
         name: String,
@@ -66,34 +71,42 @@ pub enum TextureError {
         found: u64,
     },
     /// Whatever else the decoder dislikes.
-    #[error("{name}: {reason}, expected a 24-bit uncompressed BMP")]
+    #[error("{name}: {reason}, expected a {kind}")]
     Decode {
         /// The file's name.
         name: String,
+        /// What would be taken.
+        kind: &'static str,
         /// The decoder's words.
         reason: String,
     },
 }
 
-/// Reads a 24-bit uncompressed BMP; `name` is for the message.
+/// Reads a PNG or a 24-bit uncompressed BMP; `name` is for the message. Of a PNG what is transparent is taken as it is.
 ///
-/// The header is checked before anything is allocated, so that no file can ask for more memory than
-/// `MAX_SIDE`² pixels, nor for more than the pixels it brings.
+/// The header is checked before anything is allocated, so that no BMP can ask for more memory than the pixels it brings, and
+/// no PNG for more than `MAX_PNG_SIDE`² pixels.
 ///
 /// # Errors
 ///
 /// Any [`TextureError`]: what the file is instead, with the numbers from its header.
-pub fn decode_bmp(name: &str, bytes: &[u8]) -> Result<RgbImage, TextureError> {
-    check_header(name, bytes)?;
+pub fn decode_texture(name: &str, bytes: &[u8]) -> Result<RgbImage, TextureError> {
+    let is_png = bytes.starts_with(b"\x89PNG");
+    if !is_png {
+        check_header(name, bytes)?;
+    }
     let refuse = |e: image::ImageError| TextureError::Decode {
         name: name.to_owned(),
+        kind: if is_png { "PNG of at most 2048 x 2048 pixels" } else { "24-bit uncompressed BMP" },
         reason: e.to_string().split_whitespace().collect::<Vec<_>>().join(" "),
     };
-    let mut reader = image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Bmp);
+    let format = if is_png { image::ImageFormat::Png } else { image::ImageFormat::Bmp };
+    let mut reader = image::ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = image::Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(4 * u64::from(MAX_SIDE) * u64::from(MAX_SIDE));
+    let side = if is_png { MAX_PNG_SIDE } else { MAX_SIDE };
+    limits.max_image_width = Some(side);
+    limits.max_image_height = Some(side);
+    limits.max_alloc = Some(8 * u64::from(side) * u64::from(side));
     reader.limits(limits);
     Ok(reader.decode().map_err(refuse)?.into_rgb8())
 }

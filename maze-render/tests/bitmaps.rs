@@ -1,6 +1,6 @@
 //! Which bitmaps are taken as textures, and what is said of the others.
 
-use maze_render::decode_bmp;
+use maze_render::decode_texture;
 
 /// A Windows bitmap: file header, 40-byte info header, rows from the bottom, padded to four bytes.
 fn bmp(width: i32, height: i32, bits: u16, compression: u32, pixels: &[u8]) -> Vec<u8> {
@@ -22,28 +22,29 @@ fn bmp(width: i32, height: i32, bits: u16, compression: u32, pixels: &[u8]) -> V
 const TWO_BY_TWO: [u8; 16] = [255, 0, 0, 0, 255, 0, 0, 0, 0, 0, 255, 255, 255, 255, 0, 0];
 
 fn refusal(bytes: &[u8]) -> String {
-    let text = decode_bmp("wall.bmp", bytes).expect_err("should be refused").to_string();
+    let text = decode_texture("wall.bmp", bytes).expect_err("should be refused").to_string();
     assert!(text.starts_with("wall.bmp: ") && !text.contains('\n'), "{text}");
     text
 }
 
 #[test]
 fn a_24_bit_bitmap_is_read_the_right_way_up() {
-    let image = decode_bmp("wall.bmp", &bmp(2, 2, 24, 0, &TWO_BY_TWO)).unwrap();
+    let image = decode_texture("wall.bmp", &bmp(2, 2, 24, 0, &TWO_BY_TWO)).unwrap();
     assert_eq!(image.dimensions(), (2, 2));
     assert_eq!(image.get_pixel(0, 0).0, [255, 0, 0]);
     assert_eq!(image.get_pixel(1, 0).0, [255, 255, 255]);
     assert_eq!(image.get_pixel(0, 1).0, [0, 0, 255]);
-    let from_top = decode_bmp("wall.bmp", &bmp(2, -2, 24, 0, &TWO_BY_TWO)).unwrap();
+    let from_top = decode_texture("wall.bmp", &bmp(2, -2, 24, 0, &TWO_BY_TWO)).unwrap();
     assert_eq!(from_top.get_pixel(0, 0).0, [0, 0, 255], "a negative height stores the top row first");
 }
 
 #[test]
 fn what_is_not_a_bitmap_is_named() {
     assert_eq!(
-        refusal(b"\x89PNG\r\n\x1a\n rest"),
-        "wall.bmp: not a BMP file (starts with \"\\x89PNG\"), expected a 24-bit uncompressed BMP"
+        refusal(b"GIF89a rest"),
+        "wall.bmp: not a BMP or PNG file (starts with \"GIF8\"), expected a 24-bit uncompressed BMP or a PNG"
     );
+    assert!(refusal(b"\x89PNG\r\n\x1a\n rest").contains("expected a PNG of at most 2048 x 2048 pixels"));
     assert!(refusal(b"").contains("empty"));
     assert!(refusal(b"B").contains("not a BMP"));
 }
@@ -83,7 +84,7 @@ fn no_damaged_byte_panics() {
         for value in [0, 1, 12, 24, 64, 127, 128, 255] {
             let mut damaged = whole.clone();
             damaged[at] = value;
-            if let Err(error) = decode_bmp("wall.bmp", &damaged) {
+            if let Err(error) = decode_texture("wall.bmp", &damaged) {
                 assert!(!error.to_string().contains('\n'));
             }
         }

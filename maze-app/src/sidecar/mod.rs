@@ -2,7 +2,7 @@
 
 mod text;
 
-pub(crate) use text::{Sidecar, TextSigns, parse_up_axis, radius_in_range};
+pub(crate) use text::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name};
 
 use crate::failure::Failure;
 use crate::files;

@@ -1,5 +1,6 @@
 //! What a sidecar's text says. By itself, so that a fuzz target can include it.
 
+use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
 use maze_core::{Radius, UpAxis};
 use nalgebra::Vector2;
@@ -30,6 +31,21 @@ pub(crate) struct Sidecar {
     pub(crate) textures: Option<PathBuf>,
     /// Which signs of a text maze mean what.
     pub(crate) text: TextSigns,
+    /// How a picture is read.
+    pub(crate) picture: PictureTones,
+}
+
+/// How a picture is read, as a sidecar states it.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct PictureTones {
+    /// Which pixels are walls.
+    #[serde(deserialize_with = "tone")]
+    pub(crate) wall: Option<WallTone>,
+}
+
+fn tone<'de, D: Deserializer<'de>>(value: D) -> Result<Option<WallTone>, D::Error> {
+    parse_tone(&String::deserialize(value)?).map(Some).map_err(Error::custom)
 }
 
 /// The signs of a text maze, as a sidecar or flags state them.
@@ -72,9 +88,13 @@ fn scale<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
 }
 
 fn point<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vector2<f64>>, D::Error> {
-    let point = <[f64; 2]>::deserialize(value)?;
-    let usable = point.iter().all(|value| value.is_finite());
-    usable.then_some(Some(point.into())).ok_or_else(|| Error::custom("expected two finite numbers"))
+    // Not an array of two: of a longer one the end would be cut off without a word.
+    let values = Vec::<f64>::deserialize(value)?;
+    let [x, y] = values[..] else {
+        return Err(Error::custom(format!("expected two numbers, found {}", values.len())));
+    };
+    let usable = x.is_finite() && y.is_finite();
+    usable.then(|| Some(Vector2::new(x, y))).ok_or_else(|| Error::custom("expected two finite numbers"))
 }
 
 impl Sidecar {
@@ -94,6 +114,21 @@ const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
 pub(crate) fn radius_in_range(radius: f64) -> Result<Radius, String> {
     let usable = Some(radius).filter(|radius| RADII.contains(radius)).and_then(Radius::new);
     usable.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
+}
+
+/// As a flag and a sidecar say it.
+pub(crate) fn tone_name(tone: WallTone) -> &'static str {
+    match tone {
+        WallTone::Dark => "dark",
+        WallTone::Light => "light",
+    }
+}
+
+pub(crate) fn parse_tone(text: &str) -> Result<WallTone, String> {
+    [WallTone::Dark, WallTone::Light]
+        .into_iter()
+        .find(|tone| tone_name(*tone) == text)
+        .ok_or_else(|| "expected dark or light".to_owned())
 }
 
 pub(crate) fn parse_up_axis(text: &str) -> Result<UpAxis, String> {
@@ -204,12 +239,15 @@ mod tests {
             ("scale = -1", 1, "above 0"),
             ("scale = nan", 1, "above 0"),
             ("scale = 'big'", 1, "invalid type"),
-            ("up = 'y'\nstart = [1]\n", 2, "invalid length"),
             ("goal = [inf, 0]", 1, "two finite numbers"),
             ("up = 'y'\nup = 'z'\n", 2, "duplicate key"),
             ("up = 'y'\n\n= 3\n", 3, ""),
             ("[text]\nwalls = '#'\n", 2, "unknown field `walls`"),
             ("text.wall = 1\n", 1, "invalid type"),
+            ("picture.wall = 'grey'\n", 1, "expected dark or light"),
+            // F22: an array that is too long.
+            ("up = 'y'\nstart = [1, 2, 3]\n", 2, "expected two numbers"),
+            ("goal = [1]\n", 1, "expected two numbers"),
         ];
         for (text, line, expected) in cases {
             let (at, reason) = Sidecar::parse(text).unwrap_err();

@@ -137,8 +137,8 @@ impl<'a> Canvas<'a> {
             (Some(row), Some(column)) if row < self.rows.len() => self.arms(row, column),
             _ => [false; 4],
         };
-        for row in 0..self.rows.len() {
-            for column in 0..width {
+        for (row, row_mark) in rows.iter_mut().enumerate() {
+            for (column, column_mark) in columns.iter_mut().enumerate() {
                 let here = self.arms(row, column);
                 let [up, right, down, left] = here;
                 let before = [at(row.checked_sub(1), Some(column)), at(Some(row), column.checked_sub(1))];
@@ -151,10 +151,10 @@ impl<'a> Canvas<'a> {
                 let ends =
                     self.is_underscored && here == [false; 4] && (before[1] == LEVEL || behind[1] == LEVEL);
                 if up || down || stops(1, LEVEL) || (right != left) || ends {
-                    columns[column].get_or_insert((row, column));
+                    column_mark.get_or_insert((row, column));
                 }
                 if right || left || stops(0, UPRIGHT) || (up != down) {
-                    rows[row].get_or_insert((row, column));
+                    row_mark.get_or_insert((row, column));
                 }
             }
         }
@@ -253,6 +253,9 @@ pub(super) fn read(lines: &[Line], options: &TextOptions) -> Result<Drawing, Tex
     Ok(Drawing { sides, ends, places, n_marks: marks.found.len().saturating_sub(n_end_signs) })
 }
 
+/// Start and goal, and where their signs stand.
+type EndsAndPlaces = ([Option<End>; 2], [Option<Place>; 2]);
+
 /// A sign in a cell.
 struct Mark {
     cell: [usize; 2],
@@ -287,7 +290,7 @@ impl Marks {
     }
 
     /// The places of start and goal among them.
-    fn ends(&self, options: &TextOptions) -> Result<([Option<End>; 2], [Option<Place>; 2]), TextError> {
+    fn ends(&self, options: &TextOptions) -> Result<EndsAndPlaces, TextError> {
         let mut groups: Vec<(&str, Vec<&Mark>)> = Vec::new();
         for mark in &self.found {
             match groups.iter().position(|(sign, _)| *sign == mark.sign) {

@@ -345,7 +345,7 @@ impl Separator {
         if 3 <= filled().count()
             && filled().all(|line| every_second_is_blank(line) && is_wide(line))
             && is_full(filled().next())
-            && is_full(filled().last())
+            && is_full(filled().next_back())
         {
             return Self::EverySecond;
         }

@@ -1,11 +1,19 @@
-//! Pictures: dark is wall. Bytes in: brightness pixel by pixel, so that no decoder is needed here.
+//! Pictures: dark or light lines are walls. Bytes in: colours pixel by pixel, so that no decoder is needed here.
+
+mod tones;
 
 use crate::blocks::{Blocks, BlocksError};
 use crate::{AssembleOptions, Maze};
+use tones::Tones;
 
-/// A pixel darker than this is wall: half of the range, because drawn walls are near 0 and paper is near 255, and
-/// smoothed edges and compression noise stay on their side.
-const HALF: u8 = 128;
+/// Which pixels are walls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallTone {
+    /// Dark walls on a light ground.
+    Dark,
+    /// Light walls on a dark ground.
+    Light,
+}
 
 /// Most pixels of a picture.
 pub const MAX_PIXELS: usize = 1 << 22;
@@ -23,7 +31,7 @@ pub enum PictureError {
     },
     /// No wall.
     #[error(
-        "no pixel is darker than half: the darkest, at ({x}, {y}), has {darkest} of 255; expected dark walls on a light ground"
+        "one tone alone: the darkest pixel, at ({x}, {y}), has {darkest} of 255; expected dark walls on a light ground"
     )]
     NoWalls {
         /// From the left, counted from 0.
@@ -32,6 +40,19 @@ pub enum PictureError {
         y: usize,
         /// Brightness.
         darkest: u8,
+    },
+    /// Dark and light could change places.
+    #[error(
+        "the dark or the light pixels can be the walls: expected picture.wall to say which, dark or light"
+    )]
+    Ambiguous,
+    /// The walls do not lie along the picture's sides.
+    #[error(
+        "the walls are turned by about {degrees} degrees: expected a picture whose walls lie along its sides (turn it before)"
+    )]
+    Turned {
+        /// To the nearest degree.
+        degrees: i32,
     },
     /// Walls of every shape and size.
     #[error(
@@ -64,43 +85,41 @@ pub struct Picture {
     pub left: usize,
     /// Pixels above the walls.
     pub top: usize,
+    /// Which pixels are walls.
+    pub tone: WallTone,
+    /// Pixels in colour that count as free.
+    pub n_marked: usize,
 }
 
-/// The blocks of a picture given as brightness, row by row from the top. Light margins around the walls are left out.
+/// The blocks of a picture given as red, green and blue, row by row from the top. Margins around the walls are left out. Colours
+/// on a grey drawing are marks: free, and a green and a red spot are start and goal. `wall` says which pixels are walls, where
+/// it is not to be found.
 ///
 /// # Errors
-/// A picture that is too large or has no dark pixel.
-pub fn read(width: usize, height: usize, brightness: &[u8]) -> Result<Picture, PictureError> {
+/// A picture that is too large, has one tone alone, or turned walls.
+pub fn read(
+    width: usize,
+    height: usize,
+    rgb: &[[u8; 3]],
+    wall: Option<WallTone>,
+) -> Result<Picture, PictureError> {
     let size = PictureError::Size { width, height };
-    let fits =
-        width.checked_mul(height).is_some_and(|n| n == brightness.len() && (1..=MAX_PIXELS).contains(&n));
+    let fits = width.checked_mul(height).is_some_and(|n| n == rgb.len() && (1..=MAX_PIXELS).contains(&n));
     if !fits {
         return Err(size);
     }
-    let is_dark = |x: usize, y: usize| brightness[y * width + x] < HALF;
-    let wall_rows = brightness.chunks_exact(width).map(|row| row.iter().any(|pixel| *pixel < HALF));
-    let Some([top, bottom]) = first_and_last(wall_rows) else {
-        let (index, darkest) = brightness
-            .iter()
-            .enumerate()
-            .min_by_key(|(_, pixel)| **pixel)
-            .map_or((0, HALF), |(i, p)| (i, *p));
-        return Err(PictureError::NoWalls { x: index % width, y: index / width, darkest });
+    let Tones { wall, tone, spots, n_marked } = tones::read(width, height, rgb, wall)?;
+    let Some([left, right, top, bottom]) = wall.bounds() else {
+        return Err(PictureError::NoWalls { x: 0, y: 0, darkest: u8::MAX });
     };
-    let mut in_column = vec![false; width];
-    for row in brightness.chunks_exact(width) {
-        in_column.iter_mut().zip(row).for_each(|(any, pixel)| *any |= *pixel < HALF);
-    }
-    // There is a dark row, hence a dark column.
-    let [left, right] = first_and_last(in_column.into_iter()).unwrap_or([0, width - 1]);
     let (n_x, n_y) = (right + 1 - left, bottom + 1 - top);
     let mut cell = gcd(n_x, n_y);
     for y in top..=bottom {
         for x in left..=right {
-            if left < x && is_dark(x, y) != is_dark(x - 1, y) {
+            if left < x && wall.at(x, y) != wall.at(x - 1, y) {
                 cell = gcd(cell, x - left);
             }
-            if top < y && is_dark(x, y) != is_dark(x, y - 1) {
+            if top < y && wall.at(x, y) != wall.at(x, y - 1) {
                 cell = gcd(cell, y - top);
             }
         }
@@ -109,13 +128,36 @@ pub fn read(width: usize, height: usize, brightness: &[u8]) -> Result<Picture, P
         }
     }
     let [n_x, n_y] = [n_x / cell, n_y / cell];
-    let block = |index: usize| is_dark(left + index % n_x * cell, bottom - index / n_x * cell);
-    let blocks = Blocks::new(n_x, n_y, (0..n_x * n_y).map(block).collect(), [None; 2]).ok_or(size)?;
-    Ok(Picture { blocks, cell, left, top })
+    let is_wall = |index: usize| wall.at(left + index % n_x * cell, bottom - index / n_x * cell);
+    let walls: Vec<bool> = (0..n_x * n_y).map(is_wall).collect();
+    let ends = spots.map(|spot| {
+        let [x, y] = spot?;
+        let block = [x.checked_sub(left)? / cell, bottom.checked_sub(y)? / cell];
+        (block[0] < n_x && block[1] < n_y && !walls[block[1] * n_x + block[0]]).then_some(block)
+    });
+    let blocks = Blocks::new(n_x, n_y, walls, ends).ok_or(size)?;
+    Ok(Picture { blocks, cell, left, top, tone, n_marked })
 }
 
 impl Picture {
-    /// The maze of this picture; its openings are start and goal.
+    /// How the picture was read, in words.
+    pub fn found(&self) -> String {
+        let (n_x, n_y, cell) = (self.blocks.width(), self.blocks.height(), self.cell);
+        let mut words = format!("{n_x} x {n_y} cells of {cell} x {cell} pixels");
+        if self.tone == WallTone::Light {
+            words += ", light walls on a dark ground";
+        }
+        if self.n_marked != 0 {
+            words += &format!(", {} pixels in colour ignored", self.n_marked);
+        }
+        let spots = [("green", "start"), ("red", "goal")].into_iter().zip(self.blocks.ends());
+        for ((colour, name), _) in spots.filter(|(_, end)| end.is_some()) {
+            words += &format!(", {name} at the {colour} spot");
+        }
+        words
+    }
+
+    /// The maze of this picture; its openings are start and goal where no spots are.
     ///
     /// # Errors
     /// Walls that make no maze.
@@ -147,13 +189,6 @@ impl Picture {
     }
 }
 
-/// Index of the first and of the last that holds.
-fn first_and_last(holds: impl Iterator<Item = bool>) -> Option<[usize; 2]> {
-    let mut which = holds.enumerate().filter(|(_, holds)| *holds).map(|(index, _)| index);
-    let first = which.next()?;
-    Some([first, which.last().unwrap_or(first)])
-}
-
 /// Greatest common divisor (Euclid).
 fn gcd(a: usize, b: usize) -> usize {
     let (mut a, mut b) = (a, b);
@@ -171,13 +206,13 @@ mod tests {
     const WAY: &str = "# ####\n# #  #\n#   ##\n### ##\n";
 
     /// A text maze as a picture: `cell` pixels a character, a margin around it, and two tones.
-    fn drawn(text: &str, cell: usize, margin: usize, [dark, light]: [u8; 2]) -> (usize, usize, Vec<u8>) {
+    fn drawn(text: &str, cell: usize, margin: usize, [dark, light]: [u8; 2]) -> (usize, usize, Vec<[u8; 3]>) {
         let lines: Vec<&[u8]> = text.lines().map(str::as_bytes).collect();
         let [width, height] = [lines[0].len(), lines.len()].map(|n| n * cell + 2 * margin);
         let pixel = |index: usize| {
             let [x, y] = [index % width, index / width].map(|at| at.checked_sub(margin).map(|at| at / cell));
             let block = y.and_then(|y| lines.get(y)).zip(x).and_then(|(line, x)| line.get(x));
-            if block == Some(&b'#') { dark } else { light }
+            [if block == Some(&b'#') { dark } else { light }; 3]
         };
         (width, height, (0..width * height).map(pixel).collect())
     }
@@ -188,14 +223,14 @@ mod tests {
         for (cell, margin) in [(1, 0), (1, 3), (2, 0), (5, 7), (16, 2)] {
             for tones in [[0, 255], [127, 128], [90, 200]] {
                 let (width, height, pixels) = drawn(WAY, cell, margin, tones);
-                let picture = read(width, height, &pixels).unwrap();
+                let picture = read(width, height, &pixels, None).unwrap();
                 assert_eq!((picture.cell, picture.left, picture.top), (cell, margin, margin));
                 assert_eq!(picture.blocks, blocks);
             }
         }
         let (width, height, pixels) = drawn(WAY, 5, 7, [0, 255]);
         let options = AssembleOptions::default();
-        let maze = read(width, height, &pixels).unwrap().maze(&options).unwrap();
+        let maze = read(width, height, &pixels, None).unwrap().maze(&options).unwrap();
         assert_eq!(maze.planes, blocks.maze(&options).unwrap().planes);
         assert!(maze.solvable && maze.openings.len() == 2);
     }
@@ -209,8 +244,9 @@ mod tests {
             let inner = (1..3).any(|k| x / 16 == k && is_line(x) && (y < 32) == (k == 1));
             (!(2..48).contains(&x) || !(2..48).contains(&y) || inner) && !door
         };
-        let pixels: Vec<u8> = (0..50 * 50).map(|i| if wall(i % 50, i / 50) { 0 } else { 255 }).collect();
-        let maze = read(50, 50, &pixels).unwrap().maze(&AssembleOptions::default()).unwrap();
+        let pixels: Vec<[u8; 3]> =
+            (0..50 * 50).map(|i| [if wall(i % 50, i / 50) { 0 } else { 255 }; 3]).collect();
+        let maze = read(50, 50, &pixels, None).unwrap().maze(&AssembleOptions::default()).unwrap();
         assert!((maze.scale - 1.0 / 7.0).abs() < 1.0e-12, "{}", maze.scale);
         assert!(maze.solvable && maze.openings.len() == 2);
         assert!((maze.wall_height - crate::extrude::WALL_HEIGHT).abs() < 1.0e-9);
@@ -219,21 +255,23 @@ mod tests {
     #[test]
     fn what_is_no_maze_is_told_with_the_pixel() {
         let message = |width, height, pixels: &[u8]| {
-            let read = read(width, height, pixels);
+            let rgb: Vec<[u8; 3]> = pixels.iter().map(|pixel| [*pixel; 3]).collect();
+            let read = read(width, height, &rgb, None);
             read.and_then(|picture| picture.maze(&AssembleOptions::default())).unwrap_err().to_string()
         };
         assert!(message(0, 0, &[]).starts_with("0 x 0 pixels: expected at least 1"));
         assert!(message(3, 2, &[0; 5]).starts_with("3 x 2 pixels"));
         assert!(message(usize::MAX, 2, &[0; 5]).contains("expected at least 1"));
-        let mut light = [250; 6];
-        light[4] = 200;
         assert!(
-            message(3, 2, &light)
-                .starts_with("no pixel is darker than half: the darkest, at (1, 1), has 200")
+            message(3, 2, &[240; 6]).starts_with("one tone alone: the darkest pixel, at (0, 0), has 240")
         );
         assert_eq!(message(3, 3, &[0; 9]), "no corridor: no two walls face each other across free space");
         let noise: Vec<u8> = (0..700 * 700_u32)
-            .map(|i| if i.wrapping_mul(2_654_435_761) >> 31 == 0 { 0 } else { 255 })
+            .map(|i| {
+                // Mixed twice: one multiplication leaves lines.
+                let mixed = (i ^ (i >> 7)).wrapping_mul(2_654_435_761);
+                if (mixed ^ (mixed >> 15)).wrapping_mul(2_246_822_519) >> 31 == 0 { 0 } else { 255 }
+            })
             .collect();
         let error = message(700, 700, &noise);
         assert!(error.starts_with("walls of 701 x 701 distinct edges, pixel ("), "{error}");
