@@ -1,9 +1,17 @@
 //! The window: events in, frames out; nothing else.
 
+mod display;
 mod graphics;
 mod idle;
+mod keys;
+mod layout;
 mod picture;
+mod presence;
 pub(crate) mod view;
+mod watch;
+
+pub(crate) use display::{event_loop, leave_silent};
+pub(crate) use presence::Unfocused;
 
 use crate::clock::Clock;
 use crate::command::play::Setup;
@@ -12,9 +20,10 @@ use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
 use crate::game::{Game, to_f32};
-use crate::input::{self, Action, TiltControl};
+use crate::input::{Action, Keyboard, TiltControl};
 use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
+use crate::slowness::Slowness;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
 use crate::ui::{self, FramesPanel, Hud, Labels};
@@ -22,18 +31,19 @@ use graphics::{Drawn, Graphics};
 use idle::Idle;
 use maze_core::{Event, Maze, Phase};
 use maze_render::{Quality, TextureSet};
+use presence::Presence;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use view::View;
+use watch::Watch;
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalPosition, PhysicalSize, Size};
-use winit::event::{ElementState, KeyEvent, MouseButton, MouseScrollDelta, StartCause, WindowEvent};
+use winit::dpi::PhysicalPosition;
+use winit::event::{ElementState, MouseButton, MouseScrollDelta, StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
-use winit::keyboard::PhysicalKey;
 use winit::window::{Window, WindowId};
 
 /// Size of a new window (logical pixels).
-const WINDOW_SIZE: LogicalSize<u32> = LogicalSize::new(1280, 720);
+const WINDOW_SIZE: [u32; 2] = [1280, 720];
 
 /// Pixels of a touchpad's scroll that count as one notch of a wheel.
 const PIXELS_PER_NOTCH: f64 = 40.0;
@@ -43,18 +53,6 @@ const HIDDEN_WAKE: Duration = Duration::from_millis(100);
 
 /// How long a message stays on screen.
 const NOTICE_TIME: Duration = Duration::from_secs(10);
-
-/// The way to the window system, or one line that says why there is none.
-pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
-    // The error itself names a line of the library's source, and says no more than this.
-    EventLoop::new().map_err(|_| {
-        let named = |name: &str| std::env::var(name).map(|value| format!(" ({name} is {value})"));
-        let which = named("WAYLAND_DISPLAY").or_else(|_| named("DISPLAY")).unwrap_or_default();
-        Failure::bad_input(format!(
-            "no display to open a window on{which}; `maze-app render` draws without one"
-        ))
-    })
-}
 
 /// What `maze-app frames` does differently from `maze-app play`.
 #[derive(Clone, Copy, Debug)]
@@ -79,7 +77,9 @@ impl Default for Options {
 pub(crate) struct App {
     game: Game,
     clock: Clock,
+    keyboard: Keyboard,
     control: TiltControl,
+    presence: Presence,
     view: View,
     source: Source,
     labels: Labels,
@@ -102,13 +102,16 @@ pub(crate) struct App {
     drawn_by: Option<(String, Quality, [u32; 2])>,
     frame_log: FrameLog,
     shows_frames: bool,
+    slowness: Slowness,
+    /// The picture's quality is somebody's choice, and stays.
+    quality_is_chosen: bool,
     idle: Idle,
-    cursor: PhysicalPosition<f64>,
+    /// Where it was last, if anywhere.
+    cursor: Option<PhysicalPosition<f64>>,
     help: bool,
     layers: Layers,
     /// News of a moment, such as why a dropped file was not loaded, and when.
     notice: Option<(String, Instant)>,
-    hidden: bool,
     n_ticks: u64,
     max_tilt_rad: f32,
     opened: Instant,
@@ -122,10 +125,16 @@ impl App {
     pub(crate) fn new(setup: Setup, options: Options, maze: Maze) -> Result<Self, Failure> {
         let game = Game::new(maze, setup.engine)?;
         let demo = options.demo.then(|| Demo::new(&game, setup.max_tilt_rad)).transpose()?;
+        // What ends by itself, or plays by itself, waits for nobody unless it is told to.
+        let waits = demo.is_none() && setup.exit_after.is_none();
+        let usual = if waits { Unfocused::Pause } else { Unfocused::Run };
+        let unfocused = setup.unfocused.unwrap_or(usual);
         let now = Instant::now();
         Ok(Self {
             clock: Clock::new(game.tick_s()),
+            keyboard: Keyboard::default(),
             control: TiltControl::new(setup.max_tilt_rad),
+            presence: Presence::new(unfocused),
             view: View::default(),
             labels: Labels::new(&setup.source, game.maze()),
             game,
@@ -144,12 +153,13 @@ impl App {
             drawn_by: None,
             frame_log: FrameLog::new(options.keep_s),
             shows_frames: false,
+            slowness: Slowness::default(),
+            quality_is_chosen: setup.quality.is_chosen(),
             idle: Idle::default(),
-            cursor: PhysicalPosition::default(),
+            cursor: None,
             help: true,
             layers: Layers::default(),
             notice: None,
-            hidden: false,
             n_ticks: 0,
             max_tilt_rad: to_f32(setup.max_tilt_rad),
             opened: now,
@@ -162,7 +172,7 @@ impl App {
 
     /// Until the window closes.
     pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<Self, Failure> {
-        event_loop.run_app(&mut self).map_err(Failure::bad_input)?;
+        display::guarded(|| event_loop.run_app(&mut self))?.map_err(Failure::bad_input)?;
         if !self.is_recorded {
             self.write_recording()?;
         }
@@ -198,16 +208,19 @@ impl App {
 
     fn load_into_graphics(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
-        graphics.set_maze(self.game.maze(), &format!("Maze  {}", self.source.title()))
+        graphics.set_maze(self.game.maze(), &format!("Maze  {}", ui::window_title(&self.source.title())))
     }
 
     fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
-        let size = self.options.size.map(|[width, height]| Size::from(PhysicalSize::new(width, height)));
-        let size = size.unwrap_or(WINDOW_SIZE.into());
+        let size = display::window_size(event_loop, self.options.size, WINDOW_SIZE);
         let attributes = Window::default_attributes().with_inner_size(size).with_title("Maze");
         let window = event_loop
             .create_window(attributes)
             .map_err(|error| Failure::bad_input(format!("cannot open a window: {error}")))?;
+        self.presence.watch(Watch::new(&window));
+        if self.presence.is_on_x11() {
+            self.keyboard.set_layouts(layout::read(), None);
+        }
         self.graphics = Some(Graphics::new(event_loop, window, &self.textures, self.quality)?);
         self.load_into_graphics()?;
         self.state_log = self.state_log_path.as_deref().map(StateLog::create).transpose()?;
@@ -291,24 +304,6 @@ impl App {
         Ok(())
     }
 
-    fn key(&mut self, event_loop: &ActiveEventLoop, event: &KeyEvent) -> Result<(), Failure> {
-        let PhysicalKey::Code(key) = event.physical_key else { return Ok(()) };
-        let pressed = event.state == ElementState::Pressed;
-        if let Some(direction) = input::tilt_direction_of(key)
-            && !event.repeat
-        {
-            self.control.key(direction, pressed);
-        }
-        match input::action_of(&event.logical_key) {
-            // Held zoom and step keys go on; everything else happens once a press.
-            Some(action @ (Action::ZoomIn | Action::ZoomOut | Action::Step)) if pressed => {
-                self.act(event_loop, action)
-            }
-            Some(action) if pressed && !event.repeat => self.act(event_loop, action),
-            _ => Ok(()),
-        }
-    }
-
     fn simulate(&mut self, elapsed: Duration) -> Result<(), Failure> {
         for _ in 0..self.clock.advance(elapsed.as_secs_f64()) {
             self.control.tick(self.game.tick_s());
@@ -351,8 +346,11 @@ impl App {
         let Some(graphics) = &self.graphics else { return Ok(()) };
         let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
         let (adapter, quality, size) = (graphics.adapter(), graphics.quality(), graphics.size());
-        self.simulate(elapsed)?;
+        let waits = self.presence.waits();
+        self.simulate(if waits { Duration::ZERO } else { elapsed })?;
         let simulate = watch.ms();
+        self.keep_up(elapsed)?;
+        let pace = self.pace();
         let watch = Stopwatch::start();
         let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
         let hud = Hud {
@@ -365,7 +363,8 @@ impl App {
             notice: notice.map(|(text, _)| text.as_str()),
             layers: self.layers,
             notes: &Notes::default(),
-            pace: self.clock.pace(),
+            pace: pace.as_deref(),
+            keyboard: &self.keyboard,
             frames: self.shows_frames.then_some(FramesPanel {
                 log: &self.frame_log,
                 quality: quality.name(),
@@ -421,26 +420,24 @@ impl App {
                 graphics.resize(size.into());
                 self.idle.wake();
             }
+            WindowEvent::ScaleFactorChanged { scale_factor, inner_size_writer } => {
+                display::rescale(scale_factor, inner_size_writer, graphics.size());
+                self.idle.wake();
+            }
             WindowEvent::Occluded(hidden) => {
-                self.hidden = hidden;
+                self.presence.occlude(hidden);
                 // The time behind other windows is not played.
                 self.last_frame = Instant::now();
             }
-            WindowEvent::Focused(false) => self.control.release_all(),
-            WindowEvent::KeyboardInput { event, is_synthetic: false, .. } => self.key(event_loop, &event)?,
-            WindowEvent::CursorMoved { position, .. } => {
-                self.cursor = position;
-                if let Some(point) = graphics.arcball_point(position.into()) {
-                    self.control.drag_to(point);
-                }
+            WindowEvent::Focused(has_it) => self.focus(has_it),
+            WindowEvent::ModifiersChanged(modifiers) => self.keyboard.set_modifiers(modifiers.state()),
+            WindowEvent::KeyboardInput { event, is_synthetic, .. } => {
+                self.key(event_loop, &event, is_synthetic)?;
             }
+            WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => match state {
                 ElementState::Released => self.control.end_drag(),
-                ElementState::Pressed => {
-                    if let Some(point) = graphics.arcball_point(self.cursor.into()) {
-                        self.control.begin_drag(point);
-                    }
-                }
+                ElementState::Pressed => self.control.begin_drag(),
             },
             WindowEvent::MouseWheel { delta, .. } => self.view.zoom_by_notches(match delta {
                 MouseScrollDelta::LineDelta(_, notches) => f64::from(notches),
@@ -482,7 +479,7 @@ impl ApplicationHandler for App {
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
         let Some(graphics) = &self.graphics else { return };
         let now = Instant::now();
-        if self.hidden || !graphics.has_area() {
+        if self.presence.is_hidden() || !graphics.has_area() {
             self.last_frame = now;
             return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
         }

@@ -1,10 +1,15 @@
 //! Fixed ticks from uneven frames.
 
+use std::time::Duration;
+
 /// Most ticks made up for in one frame. A longer pause (a dragged window, a debugger) is forgotten, not replayed.
 const MAX_TICKS_PER_FRAME: u32 = 8;
 
 /// Slowest motion: this many times halved.
 const MAX_HALVINGS: usize = 5;
+
+/// Said in a pause.
+pub(crate) const PAUSED: &str = "paused";
 
 /// What the speeds are called, from the usual one down.
 const SPEEDS: [&str; MAX_HALVINGS + 1] =
@@ -19,15 +24,18 @@ pub(crate) struct Clock {
     is_paused: bool,
     /// Asked for and not yet made.
     n_steps: u32,
+    /// Of the last [`Clock::advance`].
+    lost_s: f64,
 }
 
 impl Clock {
     pub(crate) fn new(tick_s: f64) -> Self {
-        Self { tick_s, left_s: 0.0, n_halvings: 0, is_paused: false, n_steps: 0 }
+        Self { tick_s, left_s: 0.0, n_halvings: 0, is_paused: false, n_steps: 0, lost_s: 0.0 }
     }
 
     /// Ticks that have become due after another `elapsed_s`.
     pub(crate) fn advance(&mut self, mut elapsed_s: f64) -> u32 {
+        self.lost_s = 0.0;
         if self.is_paused {
             return std::mem::take(&mut self.n_steps);
         }
@@ -40,10 +48,17 @@ impl Clock {
             self.left_s -= self.tick_s;
             n_ticks += 1;
             if n_ticks == MAX_TICKS_PER_FRAME {
+                // Less than a tick is nothing to speak of.
+                self.lost_s = if self.tick_s <= self.left_s { self.left_s } else { 0.0 };
                 self.left_s = 0.0;
             }
         }
         n_ticks
+    }
+
+    /// What the last [`Clock::advance`] forgot of its time, in the game's own.
+    pub(crate) fn lost(&self) -> Duration {
+        Duration::try_from_secs_f64(self.lost_s).unwrap_or(Duration::MAX)
     }
 
     /// Stops, with what the last tick led to in view, or goes on from there.
@@ -71,7 +86,7 @@ impl Clock {
     /// Said unless time passes as usual.
     pub(crate) fn pace(&self) -> Option<&'static str> {
         let speed = (0 < self.n_halvings).then_some(SPEEDS[self.n_halvings]);
-        if self.is_paused { Some("paused") } else { speed }
+        if self.is_paused { Some(PAUSED) } else { speed }
     }
 
     /// How far the time has gone from the last tick to the next, 0..=1; 1 in a pause.

@@ -21,6 +21,7 @@ mod progress;
 mod quality;
 mod recipe;
 mod sidecar;
+mod slowness;
 mod source;
 mod state_log;
 mod ui;

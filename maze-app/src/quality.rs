@@ -17,6 +17,11 @@ pub(crate) enum QualityChoice {
 }
 
 impl QualityChoice {
+    /// A tier that somebody asked for: it stays, however slow it is.
+    pub(crate) fn is_chosen(self) -> bool {
+        !matches!(self, Self::Auto)
+    }
+
     pub(crate) fn on(self, gpu: &Gpu) -> Quality {
         match self {
             Self::Auto => Quality::for_adapter(&gpu.adapter_info),

@@ -49,6 +49,15 @@ impl Quality {
         }
     }
 
+    /// The next cheaper one; none below the cheapest.
+    pub fn cheaper(self) -> Option<Self> {
+        match self {
+            Self::Low => None,
+            Self::Medium => Some(Self::Low),
+            Self::High => Some(Self::Medium),
+        }
+    }
+
     /// The next better one; after the best the cheapest.
     pub fn next(self) -> Self {
         match self {

@@ -1,16 +1,16 @@
 //! The window's GPU side: device, renderer, HUD; rebuilt when the device is lost.
 
+use super::display;
 use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Stopwatch};
-use crate::input;
+use crate::game::to_f32;
 use crate::overlay::Notes;
 use crate::quality::QualityChoice;
 use crate::ui::{self, Hud, Overlay};
 use image::RgbaImage;
 use maze_core::Maze;
-use maze_render::{Acquired, Camera, Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet, WindowTarget};
-use nalgebra::Vector3;
+use maze_render::{Acquired, Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet, WindowTarget};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
@@ -163,21 +163,14 @@ impl Graphics {
     }
 
     fn scale(&self) -> f32 {
-        #[allow(clippy::cast_possible_truncation, reason = "a scale factor is a small number")]
-        let scale = self.window.scale_factor() as f32;
-        scale
+        let scale = self.window.scale_factor();
+        to_f32(if display::is_scale(scale) { scale } else { 1.0 })
     }
 
     /// Shortest time from frame to frame in the game.
     pub(super) fn frame_time(&self) -> Duration {
         let software = self.gpu.adapter_info.device_type == wgpu::DeviceType::Cpu;
         Duration::from_secs(1) / if software { SOFTWARE_FRAMES_PER_S } else { FRAMES_PER_S }
-    }
-
-    /// The arcball's point under a pixel, in world axes.
-    pub(super) fn arcball_point(&self, pixel: [f64; 2]) -> Option<Vector3<f64>> {
-        let point = input::sphere_point(self.target.size(), pixel)?;
-        Some(Camera::world_from_view().cast::<f64>() * point)
     }
 
     /// Tells the log the adapter's times of earlier frames.

@@ -1,5 +1,6 @@
 //! Whether a frame would show anything new: where nothing moves, nothing is drawn, and the machine rests.
 
+use crate::input::Letters;
 use crate::overlay::{Layers, Notes};
 use crate::ui::Hud;
 use maze_core::Phase;
@@ -31,7 +32,8 @@ struct Shown {
     notice: Option<String>,
     layers: Layers,
     notes: Notes,
-    pace: Option<&'static str>,
+    pace: Option<String>,
+    letters: Letters,
 }
 
 impl Idle {
@@ -47,7 +49,8 @@ impl Idle {
             notice: hud.notice.map(str::to_owned),
             layers: hud.layers,
             notes: hud.notes.clone(),
-            pace: hud.pace,
+            pace: hud.pace.map(str::to_owned),
+            letters: hud.keyboard.letters().clone(),
         };
         let is_same = hud.frames.is_none() && self.shown.as_ref() == Some(&shown);
         self.shown = Some(shown);
@@ -71,13 +74,14 @@ impl Idle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Keyboard;
     use crate::ui::Labels;
     use maze_render::{BallView, Camera, Marker};
     use nalgebra::UnitQuaternion;
 
     #[test]
     fn a_still_picture_is_drawn_twice_a_second_and_a_moving_one_always() {
-        let (labels, notes) = (Labels::default(), Notes::default());
+        let (labels, notes, keyboard) = (Labels::default(), Notes::default(), Keyboard::default());
         let hud = |n_ticks| Hud {
             phase: Phase::Ready,
             n_ticks,
@@ -89,6 +93,7 @@ mod tests {
             layers: Layers::default(),
             notes: &notes,
             pace: None,
+            keyboard: &keyboard,
             frames: None,
         };
         let marker = Marker { position: [0.0; 2], radius: 1.0 };

@@ -1,15 +1,17 @@
 //! How the picture is drawn, and pictures into files.
 
 use super::App;
+use crate::clock;
 use crate::failure::Failure;
 use crate::files;
+use crate::input::{Action, Control};
 use crate::sidecar;
 use crate::source::Source;
 use image::ImageFormat;
-use maze_render::TextureSet;
+use maze_render::{Quality, TextureSet};
 use std::io::Cursor;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 impl App {
     pub(super) fn notify(&mut self, notice: String) {
@@ -34,9 +36,53 @@ impl App {
     pub(super) fn next_quality(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         let quality = graphics.quality().next();
-        graphics.set_look(quality, &self.textures);
+        // From now on it is the player's.
+        self.quality_is_chosen = true;
+        self.set_quality(quality)?;
         self.notify(format!("quality: {}", quality.name()));
+        Ok(())
+    }
+
+    fn set_quality(&mut self, quality: Quality) -> Result<(), Failure> {
+        if let Some(graphics) = &mut self.graphics {
+            graphics.set_look(quality, &self.textures);
+        }
+        self.slowness.forget();
         self.load_into_graphics()
+    }
+
+    /// Where frames come too slowly for the game, the picture gets cheaper, and never dearer again by itself.
+    pub(super) fn keep_up(&mut self, elapsed: Duration) -> Result<(), Failure> {
+        if self.clock.pace() == Some(clock::PAUSED) || self.presence.waits() || self.demo.is_some() {
+            self.slowness.forget();
+            return Ok(());
+        }
+        self.slowness.push(elapsed, self.clock.lost());
+        let Some(graphics) = &self.graphics else { return Ok(()) };
+        let remedy = self.slowness.remedy(graphics.quality(), self.quality_is_chosen);
+        if let (Some(told), Some(quality)) = (self.slowness.told(), remedy) {
+            self.set_quality(quality)?;
+            self.notify(format!("slow: {told}; quality: {} from now on", quality.name()));
+        }
+        Ok(())
+    }
+
+    /// What is said while the game does not run at its usual speed.
+    pub(super) fn pace(&self) -> Option<String> {
+        if self.presence.waits() {
+            return Some("paused: click here to go on".to_owned());
+        }
+        let slow = |told| {
+            let hint = match self.graphics.as_ref().and_then(|graphics| graphics.quality().cheaper()) {
+                Some(_) => {
+                    let key = self.keyboard.letter_of(Control::Act(Action::NextQuality));
+                    format!("; {key} changes the quality")
+                }
+                None => "; a smaller window is faster".to_owned(),
+            };
+            format!("slow: {told}{hint}")
+        };
+        self.slowness.told().map(slow).or(self.clock.pace().map(str::to_owned))
     }
 
     /// What is shown of maze and method, without the rest of the HUD, into the working directory. That this may fail is no reason to end the game.
@@ -85,6 +131,7 @@ mod tests {
             state_log: None,
             record: None,
             exit_after: None,
+            unfocused: None,
             quality: QualityChoice::Auto,
         };
         App::new(setup, Options::default(), maze).unwrap()

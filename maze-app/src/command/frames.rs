@@ -9,6 +9,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
 use crate::game::{Game, to_f32};
+use crate::input::Keyboard;
 use crate::overlay::{Layers, Notes};
 use crate::plot;
 use crate::quality::QualityChoice;
@@ -28,6 +29,9 @@ const GRID_SIZE: [usize; 2] = [14, 9];
 
 /// The autopilot tilts no further than a player may.
 const MAX_TILT_DEGREES: f64 = 20.0;
+
+/// Longest side of a picture that every adapter can draw (pixels).
+const EVERY_ADAPTER: u32 = 2048;
 
 /// Frames handed over and not yet drawn, offscreen: as many as a window's driver lets a game be ahead.
 const N_FRAMES_AHEAD: usize = 2;
@@ -162,11 +166,17 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
         state_log: None,
         record: None,
         exit_after: Some(arguments.seconds),
+        unfocused: None,
         quality: arguments.quality,
     };
+    let event_loop = app::event_loop()?;
+    if arguments.size.iter().any(|side| EVERY_ADAPTER < *side) {
+        // A window of a size that nobody can draw need not be opened.
+        expect_size(arguments.size, &Gpu::offscreen().map_err(Failure::bad_input)?)?;
+    }
     let options =
         Options { demo: true, uncapped: arguments.uncapped, size: Some(arguments.size), keep_s: f64::MAX };
-    let shown = App::new(setup, options, maze)?.run(app::event_loop()?)?;
+    let shown = App::new(setup, options, maze)?.run(event_loop)?;
     let (adapter, quality, size) = shown
         .drawn_by()
         .ok_or_else(|| Failure::not_held("the window was closed before the time was over"))?;
@@ -174,7 +184,16 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
     Ok(Measured { adapter, quality, size, first_frame, log: shown.into_frame_log() })
 }
 
+/// What the adapter can draw.
+fn expect_size(size: [u32; 2], gpu: &Gpu) -> Result<(), Failure> {
+    match size.iter().any(|side| gpu.max_side() < *side) {
+        true => Err(Failure::bad_input(format!("--size: at most {} pixels a side here", gpu.max_side()))),
+        false => Ok(()),
+    }
+}
+
 fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failure> {
+    app::leave_silent();
     let source = source(arguments);
     let mut game = Game::new(source.load()?, EngineKind::Continuous)?;
     let max_tilt_rad = MAX_TILT_DEGREES.to_radians();
@@ -182,9 +201,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
     let quality = arguments.quality.on(&gpu);
     let size = arguments.size;
-    if size.iter().any(|side| gpu.max_side() < *side) {
-        return Err(Failure::bad_input(format!("--size: at most {} pixels a side here", gpu.max_side())));
-    }
+    expect_size(size, &gpu)?;
     let mut renderer =
         Renderer::with_quality(&gpu, quality.picture_format(), &files::textures(None)?, quality);
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
@@ -221,6 +238,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             layers: Layers::default(),
             notes: &Notes::default(),
             pace: None,
+            keyboard: &Keyboard::default(),
             frames: None,
         };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

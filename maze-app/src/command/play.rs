@@ -1,6 +1,6 @@
 //! `maze-app play`: the game in a window.
 
-use crate::app::{self, App, Options};
+use crate::app::{self, App, Options, Unfocused};
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
@@ -41,6 +41,9 @@ pub(crate) struct Arguments {
     /// End by itself after this time
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     exit_after: Option<Duration>,
+    /// What happens while another window has the keyboard [default: pause; with --exit-after: run]
+    #[arg(long, value_enum, value_name = "WHAT")]
+    unfocused: Option<Unfocused>,
 }
 
 pub(crate) fn parse_max_tilt(text: &str) -> Result<f64, String> {
@@ -65,6 +68,7 @@ pub(crate) struct Setup {
     pub(crate) state_log: Option<PathBuf>,
     pub(crate) record: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
+    pub(crate) unfocused: Option<Unfocused>,
     pub(crate) quality: QualityChoice,
 }
 
@@ -86,6 +90,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         state_log: arguments.state_log,
         record: arguments.record,
         exit_after: arguments.exit_after,
+        unfocused: arguments.unfocused,
         quality: arguments.quality,
     };
     App::new(setup, Options::default(), maze)?.run(event_loop).map(|_| ())

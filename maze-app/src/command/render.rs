@@ -1,5 +1,6 @@
 //! `maze-app render`: one picture, no window.
 
+use crate::app;
 use crate::app::view::{self, ZOOM_RANGE, zoomed};
 use crate::command::play::parse_max_tilt;
 use crate::engine_kind::EngineKind;
@@ -93,6 +94,7 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
+    app::leave_silent();
     let source = Source::known(&arguments.maze)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let mut game = Game::new(source.load()?, arguments.engine)?;

@@ -1,66 +1,44 @@
 //! The arcball: dragging a point on a glass sphere over the window turns what is inside.
 //!
 //! Ken Shoemake, "ARCBALL: A User Interface for Specifying Three-Dimensional Orientation Using a Mouse", Graphics
-//! Interface 1992. A drag from p to q turns by the quaternion (p . q, p x q): twice the arc, so that a drag that closes
-//! on itself undoes itself.
+//! Interface 1992. A drag over an arc turns by twice the arc, so the tangent of half the turn is that of the arc.
+//!
+//! Two things differ. The sphere is always taken hold of at its front, wherever the pointer is: near the sphere's outline
+//! a drag would turn about the line of sight, which is no tilt. And pixels are projected from the sphere's centre onto
+//! the plane that touches its front instead of straight onto the sphere: then there is no outline behind which a drag
+//! stops or turns back, and an arc stays below a right angle however far the pointer goes. So a straight drag tilts ever
+//! further, in its own direction, from any place in a window of any size. In the middle both are Shoemake's.
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::Vector2;
 
 /// Sphere radius as a part of the window's diagonal. Half of it puts the tilt's limit of 20 degrees, which is 10
-/// degrees of arc, at 128 pixels of drag in a 1280 x 720 window.
+/// degrees of arc, at 129 pixels of drag in a 1280 x 720 window.
 const RADIUS_PART: f64 = 0.5;
 
-/// The point of the unit sphere under a pixel, in view axes (x right, y up, z towards the eye).
+/// What a drag between two pixels (x right, y down) adds to the half-angle tangents of the tilt (x right, y up).
 ///
-/// Beyond the sphere's rim the nearest rim point. `None` for a window without area.
-pub(crate) fn sphere_point(size: [u32; 2], pixel: [f64; 2]) -> Option<Vector3<f64>> {
+/// Zero for a window without area.
+pub(crate) fn drag_tangents(size: [u32; 2], from: [f64; 2], to: [f64; 2]) -> Vector2<f64> {
     let [width, height] = size.map(f64::from);
     let radius = RADIUS_PART * (width * width + height * height).sqrt();
-    if radius == 0.0 {
-        return None;
+    match 0.0 < radius {
+        true => Vector2::new(to[0] - from[0], from[1] - to[1]) / radius,
+        false => Vector2::zeros(),
     }
-    let x = (pixel[0] - width / 2.0) / radius;
-    let y = (height / 2.0 - pixel[1]) / radius;
-    let squared = x * x + y * y;
-    Some(match squared < 1.0 {
-        true => Vector3::new(x, y, (1.0 - squared).sqrt()),
-        false => Vector3::new(x, y, 0.0) / squared.sqrt(),
-    })
-}
-
-/// The rotation of a drag from one point of the sphere to another.
-pub(crate) fn rotation(from: Vector3<f64>, to: Vector3<f64>) -> UnitQuaternion<f64> {
-    UnitQuaternion::new_normalize(Quaternion::from_parts(from.dot(&to), from.cross(&to)))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const SIZE: [u32; 2] = [1280, 720];
-
     #[test]
-    fn the_middle_is_the_front_and_far_outside_is_the_rim() {
-        assert_eq!(sphere_point(SIZE, [640.0, 360.0]), Some(Vector3::z()));
-        let rim = sphere_point(SIZE, [1.0e6, 360.0]).unwrap();
-        assert!((rim - Vector3::x()).norm() < 1.0e-12);
-        assert_eq!(sphere_point([0, 0], [0.0, 0.0]), None);
-    }
-
-    #[test]
-    fn a_drag_turns_by_twice_its_arc() {
-        let from = Vector3::z();
-        let to = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.1) * from;
-        let turned = rotation(from, to);
-        assert!((turned.angle() - 0.2).abs() < 1.0e-12);
-        assert!((turned.axis().unwrap().into_inner() - Vector3::y()).norm() < 1.0e-12);
-    }
-
-    #[test]
-    fn a_closed_drag_undoes_itself() {
-        let points = [[640.0, 360.0], [700.0, 300.0], [600.0, 250.0], [640.0, 360.0]];
-        let points = points.map(|pixel| sphere_point(SIZE, pixel).unwrap());
-        // Shoemake's arcball depends on the ends of a drag alone: from the first to the last point.
-        assert!(rotation(points[0], points[3]).angle() < 1.0e-12);
+    fn a_drag_in_the_middle_turns_by_twice_its_arc() {
+        let arc = 0.05_f64;
+        let radius = 0.5 * 1280_f64.hypot(720.0);
+        let tangents = drag_tangents([1280, 720], [640.0, 360.0], [640.0 + radius * arc.sin(), 360.0]);
+        // Straight onto the sphere and from its centre differ by the third power of the arc.
+        assert!((2.0 * tangents.x.atan() - 2.0 * arc).abs() < 2.0 * arc.powi(3) && tangents.y == 0.0);
+        assert!(0.0 < drag_tangents([1280, 720], [0.0, 9.0], [0.0, 8.0]).y, "upwards");
+        assert_eq!(drag_tangents([0, 0], [0.0; 2], [5.0; 2]), Vector2::zeros());
     }
 }

@@ -1,9 +1,13 @@
 //! Mouse and keys -> the maze's tilt.
 
 mod arcball;
-mod keys;
+mod bindings;
+mod keyboard;
+mod letters;
 mod tilt_control;
 
-pub(crate) use arcball::sphere_point;
-pub(crate) use keys::{Action, action_of, tilt_direction_of};
-pub(crate) use tilt_control::TiltControl;
+pub(crate) use arcball::drag_tangents;
+pub(crate) use bindings::{Action, Control};
+pub(crate) use keyboard::{Keyboard, Stroke, Wish};
+pub(crate) use letters::{Layout, Letters, lettered_places};
+pub(crate) use tilt_control::{Direction, TiltControl};

@@ -1,8 +1,7 @@
 //! The tilt that mouse and keys ask for, held under its limit.
 
-use super::arcball;
 use maze_core::Tilt;
-use nalgebra::{Quaternion, UnitQuaternion, Vector2, Vector3};
+use nalgebra::Vector2;
 
 /// How fast held keys tip the board, and how fast it comes back when they are let go, as half-angle tangents a second:
 /// 0.5 is about 57 degrees a second, so the limit of 20 degrees is reached in a third of a second.
@@ -11,7 +10,8 @@ const KEY_RATE_PER_S: f64 = 0.5;
 /// A key counts as held for at least this long, so that a tap between two ticks is still felt.
 const TAP_S: f64 = 0.1;
 
-/// A drag may ask for this many times the limit; more is forgotten, so that dragging back answers at once.
+/// A drag or a key may ask for this many times the limit, where 98.5 % of it are given; more is forgotten, so that
+/// dragging back answers at once.
 const MAX_EXCESS: f64 = 2.0;
 
 /// Where a key tips the board: the side that goes down.
@@ -36,19 +36,12 @@ impl Direction {
     }
 }
 
-/// A drag in progress: where it began on the sphere, and the orientation it began with.
-#[derive(Clone, Copy, Debug)]
-struct Drag {
-    from: Vector3<f64>,
-    world_from_maze: UnitQuaternion<f64>,
-}
-
 /// Half-angle tangents (towards +x, towards +y) that are asked for; what is given stays under the limit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TiltControl {
     asked: Vector2<f64>,
     limit: f64,
-    drag: Option<Drag>,
+    is_dragged: bool,
     held: [bool; 4],
     tapped_left_s: [f64; 4],
     /// Whether keys moved the board last: then it comes back to level when they are let go.
@@ -61,7 +54,7 @@ impl TiltControl {
         Self {
             asked: Vector2::zeros(),
             limit: (max_tilt_rad / 2.0).tan(),
-            drag: None,
+            is_dragged: false,
             held: [false; 4],
             tapped_left_s: [0.0; 4],
             keys_lead: false,
@@ -76,50 +69,50 @@ impl TiltControl {
 
     /// Whether the mouse holds the board: then it is drawn where it is held, not interpolated.
     pub(crate) fn is_dragged(&self) -> bool {
-        self.drag.is_some()
+        self.is_dragged
     }
 
-    /// The board lies flat; a drag in progress ends.
+    /// The board lies flat; a drag in progress ends, keys that are held go on.
     pub(crate) fn level(&mut self) {
         self.asked = Vector2::zeros();
-        self.drag = None;
-        self.keys_lead = false;
+        self.is_dragged = false;
+        self.keys_lead = self.held.contains(&true);
         self.tapped_left_s = [0.0; 4];
     }
 
-    /// The mouse takes hold at a point of the arcball, given in world axes.
-    pub(crate) fn begin_drag(&mut self, from: Vector3<f64>) {
+    /// The mouse takes hold of the board.
+    pub(crate) fn begin_drag(&mut self) {
         self.keys_lead = false;
-        // Unlike `Tilt`, which is quantised: a drag of no length must change nothing.
-        let world_from_maze =
-            UnitQuaternion::new_normalize(Quaternion::new(1.0, -self.asked.y, self.asked.x, 0.0));
-        self.drag = Some(Drag { from, world_from_maze });
+        self.is_dragged = true;
     }
 
-    /// The mouse has moved to another point, in world axes.
-    pub(crate) fn drag_to(&mut self, to: Vector3<f64>) {
-        let Some(drag) = self.drag else { return };
-        let turned = arcball::rotation(drag.from, to) * drag.world_from_maze;
-        self.asked = capped(swing_tangents(&turned), MAX_EXCESS * self.limit);
-    }
-
-    pub(crate) fn end_drag(&mut self) {
-        self.drag = None;
-    }
-
-    /// A tilt key went down or up.
-    pub(crate) fn key(&mut self, direction: Direction, pressed: bool) {
-        self.held[direction as usize] = pressed;
-        if pressed {
-            self.tapped_left_s[direction as usize] = TAP_S;
-            self.keys_lead = true;
+    /// The mouse has moved, by so much in half-angle tangents; does nothing without a drag.
+    pub(crate) fn drag_by(&mut self, tangents: Vector2<f64>) {
+        if self.is_dragged {
+            self.asked = capped(self.asked + tangents, MAX_EXCESS * self.limit);
         }
     }
 
-    /// The window lost the keyboard: no release will come.
+    pub(crate) fn end_drag(&mut self) {
+        self.is_dragged = false;
+    }
+
+    /// A tilt key went down.
+    pub(crate) fn tap(&mut self, direction: Direction) {
+        self.tapped_left_s[direction as usize] = TAP_S;
+        self.keys_lead = true;
+    }
+
+    /// The directions whose keys are down, all of them.
+    pub(crate) fn hold(&mut self, directions: impl Iterator<Item = Direction>) {
+        self.held = [false; 4];
+        directions.for_each(|direction| self.held[direction as usize] = true);
+    }
+
+    /// The window lost mouse and keyboard.
     pub(crate) fn release_all(&mut self) {
         self.held = [false; 4];
-        self.drag = None;
+        self.is_dragged = false;
     }
 
     /// Moves the board by what keys ask for in one tick.
@@ -132,7 +125,7 @@ impl TiltControl {
             }
             *left_s = (*left_s - tick_s).max(0.0);
         }
-        if !self.keys_lead || self.drag.is_some() {
+        if !self.keys_lead || self.is_dragged {
             return;
         }
         // Opposite keys cancel; two neighbours tip diagonally, no further than one.
@@ -148,17 +141,6 @@ fn capped(vector: Vector2<f64>, longest: f64) -> Vector2<f64> {
     if length <= longest { vector } else { vector * (longest / length) }
 }
 
-/// Half-angle tangents of a rotation's swing, its turn about the board's own normal left out.
-fn swing_tangents(world_from_maze: &UnitQuaternion<f64>) -> Vector2<f64> {
-    let q = world_from_maze.quaternion();
-    // q = swing * twist with twist = (w, 0, 0, z) normalised; a half turn has no swing part left to divide by.
-    let Some(twist) = UnitQuaternion::try_new(Quaternion::new(q.w, 0.0, 0.0, q.k), 1.0e-9) else {
-        return Vector2::zeros();
-    };
-    let swing = (world_from_maze * twist.inverse()).into_inner();
-    Vector2::new(swing.j / swing.w, -swing.i / swing.w)
-}
-
 /// `limit` must be greater than 0. Nearly the identity up to 2/3 of the limit, then smoothly up to it: t / (1 + (t / L)^4)^(1/4).
 fn soft_limited(asked: Vector2<f64>, limit: f64) -> Vector2<f64> {
     let part = asked.norm_squared() / (limit * limit);
@@ -168,74 +150,147 @@ fn soft_limited(asked: Vector2<f64>, limit: f64) -> Vector2<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::drag_tangents;
     use maze_core::gravity;
+    use proptest::prelude::*;
 
     const LIMIT_RAD: f64 = 0.349;
     const TICK_S: f64 = 0.03;
+    const SIZE: [u32; 2] = [1280, 720];
 
     fn angle(control: &TiltControl) -> f64 {
         control.tilt().world_from_maze().angle()
     }
 
+    /// Degrees towards +x and towards +y.
+    fn degrees(control: &TiltControl) -> [f64; 2] {
+        let given = soft_limited(control.asked, control.limit);
+        [given.x, given.y].map(|tangent| 2.0 * tangent.atan().to_degrees())
+    }
+
+    fn held(directions: &[Direction]) -> TiltControl {
+        let mut control = TiltControl::new(LIMIT_RAD);
+        directions.iter().for_each(|direction| control.tap(*direction));
+        control.hold(directions.iter().copied());
+        (0..40).for_each(|_| control.tick(TICK_S));
+        control
+    }
+
     #[test]
     fn dragging_to_the_right_runs_the_ball_to_the_right() {
         let mut control = TiltControl::new(LIMIT_RAD);
-        control.begin_drag(Vector3::z());
+        control.drag_by(Vector2::x());
+        assert_eq!(control.tilt(), Tilt::LEVEL, "nobody holds it");
+        control.begin_drag();
         assert_eq!(control.tilt(), Tilt::LEVEL, "a drag begins where the board is");
-        control.drag_to(Vector3::new(0.05, 0.0, 1.0).normalize());
+        control.drag_by(drag_tangents(SIZE, [640.0, 360.0], [640.0 + 36.7, 360.0]));
         let p = gravity::project(gravity::WORLD_GRAVITY, &control.tilt().world_from_maze());
         assert!(0.5 < p.x && p.y.abs() < 1.0e-3, "{p}");
         assert!((angle(&control) - 0.1).abs() < 2.0e-3, "twice the arc: {}", angle(&control));
     }
 
     #[test]
-    fn the_limit_is_never_passed_and_dragging_back_answers_at_once() {
-        let mut control = TiltControl::new(LIMIT_RAD);
-        control.begin_drag(Vector3::z());
-        let mut last = 0.0;
-        for step in 0..=100 {
-            let arc = f64::from(step) * 0.015;
-            control.drag_to(Vector3::new(arc.sin(), 0.0, arc.cos()));
-            let now = angle(&control);
-            assert!(last <= now && now < LIMIT_RAD, "step {step}: {now}");
-            last = now;
+    fn i4_a_far_drag_keeps_its_direction_and_the_limit() {
+        for stops in [&[500.0, 800.0, 1100.0, 1270.0][..], &[1270.0], &[5000.0]] {
+            let mut control = TiltControl::new(20_f64.to_radians());
+            control.begin_drag();
+            let mut at = [100.0, 360.0];
+            for x in stops {
+                control.drag_by(drag_tangents(SIZE, at, [*x, 360.0]));
+                at = [*x, 360.0];
+                let [right, away] = degrees(&control);
+                assert!((right - 19.7).abs() < 0.1 && away == 0.0, "at {x}: {right}, {away}");
+            }
         }
-        assert!(0.97 * LIMIT_RAD < last);
-        control.end_drag();
-        control.begin_drag(Vector3::z());
-        control.drag_to(Vector3::new(-0.15, 0.0, 1.0).normalize());
-        assert!(angle(&control) < 0.9 * LIMIT_RAD);
     }
 
     #[test]
-    fn turning_about_the_normal_is_no_tilt() {
+    fn dragging_back_from_the_limit_answers_at_once() {
         let mut control = TiltControl::new(LIMIT_RAD);
-        control.begin_drag(Vector3::x());
-        control.drag_to(Vector3::new(0.8, 0.6, 0.0));
-        assert_eq!(control.tilt(), Tilt::LEVEL);
+        control.begin_drag();
+        control.drag_by(Vector2::new(50.0, 0.0));
+        let before = angle(&control);
+        assert!(0.98 * LIMIT_RAD < before && before < LIMIT_RAD);
+        control.drag_by(Vector2::new(-0.01, 0.0));
+        assert!(angle(&control) < before);
+        control.drag_by(Vector2::new(-2.0 * MAX_EXCESS * control.limit, 0.0));
+        assert!(control.tilt().towards_x < 0);
+    }
+
+    proptest! {
+        /// Whatever the window, the place, the direction, the board's tilt before, and the events that a drag comes in.
+        #[test]
+        fn i4_straight_drags_are_monotone_continuous_and_limited(
+            size in [1_u32..4000, 1_u32..4000],
+            from in [-5000.0..5000.0, -5000.0..5000.0],
+            way_rad in -4.0..4.0_f64,
+            steps in prop::collection::vec(0.0..300.0, 1..40),
+            before in [-9.0..9.0, -9.0..9.0],
+            limit_degrees in 1.0..45.0_f64,
+        ) {
+            let mut control = TiltControl::new(limit_degrees.to_radians());
+            control.begin_drag();
+            control.drag_by(Vector2::new(before[0], before[1]));
+            let way = Vector2::new(way_rad.cos(), way_rad.sin());
+            let (mut at, mut last) = (Vector2::new(from[0], from[1]), soft_limited(control.asked, control.limit));
+            for step in steps {
+                let to: Vector2<f64> = at + step * Vector2::new(way.x, -way.y);
+                let tangents = drag_tangents(size, at.into(), to.into());
+                control.drag_by(tangents);
+                at = to;
+                let now = soft_limited(control.asked, control.limit);
+                let rounding = 1.0e-12 * (1.0 + at.norm());
+                prop_assert!(last.dot(&way) <= now.dot(&way) + rounding, "{last} to {now}");
+                prop_assert!(now.norm() < control.limit);
+                prop_assert!((now - last).norm() <= tangents.norm() + rounding, "no leap");
+                let twist = control.tilt().world_from_maze().k;
+                prop_assert!(twist.abs() < 1.0e-12);
+                last = now;
+            }
+        }
+
+        /// A drag that closes on itself undoes itself, as long as it stays below what may be asked for.
+        #[test]
+        fn i4_a_closed_drag_undoes_itself(points in prop::collection::vec([0.0..180.0, 0.0..180.0], 1..20)) {
+            let mut control = TiltControl::new(LIMIT_RAD);
+            control.begin_drag();
+            let points: Vec<[f64; 2]> = [&[[90.0; 2]][..], &points[..], &[[90.0; 2]][..]].concat();
+            points.windows(2).for_each(|pair| control.drag_by(drag_tangents(SIZE, pair[0], pair[1])));
+            prop_assert!(control.asked.norm() < 1.0e-12);
+        }
     }
 
     #[test]
     fn a_key_tips_while_it_is_held_and_the_board_comes_back() {
-        let mut control = TiltControl::new(LIMIT_RAD);
-        control.key(Direction::Away, true);
-        for _ in 0..40 {
-            control.tick(TICK_S);
-        }
+        let mut control = held(&[Direction::Away]);
         assert!(0.95 * LIMIT_RAD < angle(&control) && angle(&control) < LIMIT_RAD);
         assert!(0 < control.tilt().towards_y && control.tilt().towards_x == 0);
-        control.key(Direction::Away, false);
-        for _ in 0..40 {
-            control.tick(TICK_S);
-        }
+        control.hold([].into_iter());
+        (0..40).for_each(|_| control.tick(TICK_S));
         assert_eq!(control.tilt(), Tilt::LEVEL);
+    }
+
+    #[test]
+    fn opposite_keys_cancel() {
+        assert_eq!(held(&[Direction::Left, Direction::Right]).tilt(), Tilt::LEVEL);
+        let control = held(&[Direction::Left, Direction::Right, Direction::Towards]);
+        assert!(control.tilt().towards_y < 0 && control.tilt().towards_x == 0);
+    }
+
+    #[test]
+    fn i10_a_key_held_across_level_and_restart_still_tilts() {
+        let mut control = held(&[Direction::Right]);
+        control.level();
+        assert_eq!(control.tilt(), Tilt::LEVEL);
+        (0..40).for_each(|_| control.tick(TICK_S));
+        assert!(0.95 * LIMIT_RAD < angle(&control));
     }
 
     #[test]
     fn a_tap_between_two_ticks_is_felt() {
         let mut control = TiltControl::new(LIMIT_RAD);
-        control.key(Direction::Left, true);
-        control.key(Direction::Left, false);
+        control.tap(Direction::Left);
+        control.hold([].into_iter());
         control.tick(TICK_S);
         assert!(control.tilt().towards_x < 0);
     }
@@ -243,8 +298,8 @@ mod tests {
     #[test]
     fn a_dragged_board_stays_where_it_is_left() {
         let mut control = TiltControl::new(LIMIT_RAD);
-        control.begin_drag(Vector3::z());
-        control.drag_to(Vector3::new(0.05, 0.05, 1.0).normalize());
+        control.begin_drag();
+        control.drag_by(Vector2::new(0.05, 0.05));
         control.end_drag();
         let left = control.tilt();
         control.tick(TICK_S);

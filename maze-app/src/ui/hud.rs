@@ -1,6 +1,7 @@
 //! Clock, maze, keys, and the goal.
 
-use super::FramesPanel;
+use super::{FramesPanel, letters};
+use crate::input::{Action, Control, Direction, Keyboard};
 use crate::overlay::{Layer, Layers, Notes};
 use crate::source::{Onwards, Source};
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
@@ -28,31 +29,6 @@ const KEYS_HEIGHT: f32 = 74.0;
 /// Where the method's panels begin: below the clock (points).
 const NOTES_TOP: f32 = 96.0;
 
-const KEYS: [(&str, &str); 12] = [
-    ("drag", "tilt"),
-    ("arrows, W A X D", "tilt"),
-    ("T", "level"),
-    ("B / S, wheel", "zoom in / out"),
-    ("R", "restart"),
-    ("N", ""), // what it does depends on the maze
-    ("PgUp / PgDn", "levels"),
-    ("G", "ghost"),
-    ("Q", "quality"),
-    ("F3", "frame times"),
-    ("F11", "whole screen"),
-    ("F12", "picture to a file"),
-];
-
-/// After the overlays, which are 1 to 6, in the second line.
-const METHOD_KEYS: [(&str, &str); 6] = [
-    ("0", "none"),
-    ("P, Space", "pause"),
-    ("dot", "one tick"),
-    ("- / =", "slower / faster"),
-    ("H", "hide keys"),
-    ("Esc", "quit"),
-];
-
 /// What is on screen beside the maze.
 pub(crate) struct Hud<'a> {
     pub(crate) phase: Phase,
@@ -68,7 +44,9 @@ pub(crate) struct Hud<'a> {
     pub(crate) layers: Layers,
     pub(crate) notes: &'a Notes,
     /// Said while the game does not run at its usual speed.
-    pub(crate) pace: Option<&'static str>,
+    pub(crate) pace: Option<&'a str>,
+    /// What the keys print.
+    pub(crate) keyboard: &'a Keyboard,
     /// What frames take, when asked for.
     pub(crate) frames: Option<FramesPanel<'a>>,
 }
@@ -121,6 +99,7 @@ fn remarks(maze: &Maze) -> Vec<String> {
 
 /// Once for a context: dark glass, warm text.
 pub(super) fn style(context: &Context) {
+    letters::add_system_fonts(context);
     context.set_theme(egui::Theme::Dark);
     context.all_styles_mut(|style| {
         style.visuals.override_text_color = Some(INK);
@@ -146,7 +125,7 @@ impl Hud<'_> {
             self.goal_reached(ui.ctx());
         }
         if let Some(notice) = self.notice {
-            show_notice(ui.ctx(), notice);
+            show_notice(ui.ctx(), &letters::readable(ui.ctx(), notice));
         }
         if is_small([screen.width(), screen.height()]) {
             return;
@@ -154,9 +133,10 @@ impl Hud<'_> {
         area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
             let par = self.labels.par_ticks.map(|ticks| format!("par {}", clock_text(self.seconds(ticks))));
             let facts = par.into_iter().chain([self.labels.facts.clone()]).collect::<Vec<_>>().join("   ");
+            let title = letters::readable_name(ui.ctx(), &self.labels.title);
             ui.vertical(|ui| {
                 // Extended, not wrapped: egui would keep to the width of the last maze's name.
-                for text in [RichText::new(&self.labels.title), RichText::new(facts).size(11.0)] {
+                for text in [RichText::new(title), RichText::new(facts).size(11.0)] {
                     let label = egui::Label::new(text.color(QUIET_INK));
                     ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
                 }
@@ -187,7 +167,8 @@ impl Hud<'_> {
                 ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
             });
             if let Some(pace) = self.pace {
-                ui.label(RichText::new(pace).color(GOLD));
+                let pace = egui::Label::new(RichText::new(pace).color(GOLD));
+                ui.add(pace.wrap_mode(egui::TextWrapMode::Extend));
             } else if self.phase == Phase::Ready {
                 ui.label(RichText::new("tilt the board to start").color(GOLD));
             }
@@ -201,13 +182,8 @@ impl Hud<'_> {
         area(context, "keys", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
             ui.set_max_width(context.content_rect().width() - 4.0 * MARGIN);
             ui.horizontal_wrapped(|ui| {
-                let onwards = self.labels.onwards();
-                let keys = KEYS.into_iter().filter_map(|(key, effect)| match key {
-                    "N" => onwards.map(|effect| (key, effect)),
-                    _ => Some((key, effect)),
-                });
-                for (key, effect) in keys {
-                    key_and_effect(ui, key, effect, QUIET_INK);
+                for (key, effect) in key_list(self.keyboard, self.labels.onwards()) {
+                    key_and_effect(ui, &letters::readable(ui.ctx(), &key), effect, QUIET_INK);
                 }
             });
             ui.horizontal_wrapped(|ui| {
@@ -215,8 +191,8 @@ impl Hud<'_> {
                     let ink = if self.layers.has(layer) { GOLD } else { QUIET_INK };
                     key_and_effect(ui, &format!("{number}"), layer.name(), ink);
                 }
-                for (key, effect) in METHOD_KEYS {
-                    key_and_effect(ui, key, effect, QUIET_INK);
+                for (key, effect) in method_key_list(self.keyboard) {
+                    key_and_effect(ui, &letters::readable(ui.ctx(), &key), effect, QUIET_INK);
                 }
             });
         });
@@ -239,13 +215,54 @@ impl Hud<'_> {
                     }
                     ui.add_space(6.0);
                     let onwards = self.labels.onwards();
-                    let onwards = onwards.map(|effect| format!("      N or Enter  {effect}"));
-                    let next = format!("R  play again{}", onwards.unwrap_or_default());
+                    let [restart, go_on] = [Action::Restart, Action::GoOn]
+                        .map(|action| self.keyboard.letter_of(Control::Act(action)));
+                    let onwards = onwards.map(|effect| format!("      {go_on} or Enter  {effect}"));
+                    let next = format!("{restart}  play again{}", onwards.unwrap_or_default());
                     ui.label(RichText::new(next).size(16.0));
                 });
             });
         });
     }
+}
+
+/// Keys and what they do, by the letters of the player's layout; N has something to do in some mazes only.
+fn key_list(keyboard: &Keyboard, onwards: Option<&'static str>) -> Vec<(String, &'static str)> {
+    let act = |action| keyboard.letter_of(Control::Act(action));
+    let tilt = |direction| keyboard.letter_of(Control::Tilt(direction));
+    let [away, left, towards, right] =
+        [Direction::Away, Direction::Left, Direction::Towards, Direction::Right].map(tilt);
+    let keys = [
+        ("drag".to_owned(), Some("tilt")),
+        (format!("arrows or {away} {left} {towards} {right}"), Some("tilt")),
+        (act(Action::Level), Some("level")),
+        (format!("{} / {}, wheel", act(Action::ZoomIn), act(Action::ZoomOut)), Some("zoom in / out")),
+        (act(Action::Restart), Some("restart")),
+        (act(Action::GoOn), onwards),
+        ("PgUp / PgDn".to_owned(), Some("levels")),
+        (act(Action::NextGhost), Some("ghost")),
+        (act(Action::NextQuality), Some("quality")),
+        ("F3".to_owned(), Some("frame times")),
+        ("F11".to_owned(), Some("whole screen")),
+        ("F12".to_owned(), Some("picture to a file")),
+    ];
+    keys.into_iter().filter_map(|(key, effect)| Some((key, effect?))).collect()
+}
+
+/// After the overlays, which are 1 to 6, in the second line.
+fn method_key_list(keyboard: &Keyboard) -> [(String, &'static str); 6] {
+    let act = |action| match keyboard.letter_of(Control::Act(action)) {
+        letter if letter == "." => "dot".to_owned(),
+        letter => letter,
+    };
+    [
+        ("0".to_owned(), "none"),
+        (format!("{}, Space", act(Action::TogglePause)), "pause"),
+        (act(Action::Step), "one tick"),
+        (format!("{} / {}", act(Action::Slower), act(Action::Faster)), "slower / faster"),
+        (act(Action::ToggleHelp), "hide keys"),
+        ("Esc".to_owned(), "quit"),
+    ]
 }
 
 /// Denser than the panels, and over them.

@@ -2,10 +2,12 @@
 
 mod frames_panel;
 mod hud;
+mod letters;
 mod notes_panel;
 
 pub(crate) use frames_panel::FramesPanel;
 pub(crate) use hud::{Hud, Labels};
+pub(crate) use letters::window_title;
 pub(crate) use notes_panel::covered_width;
 
 use crate::overlay::Notes;
@@ -111,6 +113,7 @@ pub(crate) fn to_points(pixels: u32, scale: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Keyboard;
     use crate::overlay::Layers;
     use maze_core::Phase;
 
@@ -118,7 +121,7 @@ mod tests {
     fn the_first_frame_shows_all_that_the_second_does() {
         let context = egui::Context::default();
         hud::style(&context);
-        let (labels, notes) = (Labels::default(), Notes::default());
+        let (labels, notes, keyboard) = (Labels::default(), Notes::default(), Keyboard::default());
         let hud = Hud {
             phase: Phase::Finished,
             n_ticks: 7,
@@ -130,6 +133,7 @@ mod tests {
             layers: Layers::default(),
             notes: &notes,
             pace: None,
+            keyboard: &keyboard,
             frames: None,
         };
         let frame = || {

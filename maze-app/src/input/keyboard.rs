@@ -1,0 +1,152 @@
+//! Which keys are down, and what a press of one means.
+
+use super::bindings::{self, Action, Control};
+use super::letters::{Layout, Letters};
+use super::tilt_control::Direction;
+use winit::event::KeyEvent;
+use winit::keyboard::{Key, KeyCode, ModifiersState, PhysicalKey};
+use winit::platform::modifier_supplement::KeyEventExtModifierSupplement;
+
+/// A key went down or up.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stroke {
+    /// Where it lies.
+    pub(crate) place: KeyCode,
+    /// What it prints or is called, with the modifiers that are held.
+    pub(crate) key: Key,
+    /// What it prints without any.
+    pub(crate) letter: Key,
+    pub(crate) is_pressed: bool,
+    /// Made up by the window system, for a key that was already down when the window got the keyboard.
+    pub(crate) is_synthetic: bool,
+}
+
+impl Stroke {
+    /// `None` for a key that has no place, such as one of a keyboard on the screen.
+    pub(crate) fn new(event: &KeyEvent, is_synthetic: bool) -> Option<Self> {
+        let PhysicalKey::Code(place) = event.physical_key else { return None };
+        Some(Self {
+            place,
+            key: event.logical_key.clone(),
+            letter: event.key_without_modifiers(),
+            is_pressed: event.state.is_pressed(),
+            is_synthetic,
+        })
+    }
+
+    fn control(&self) -> Option<Control> {
+        bindings::control_of(match self.key {
+            Key::Named(name) => bindings::Key::Name(name),
+            _ => bindings::Key::Place(self.place),
+        })
+    }
+}
+
+/// The keys that are down, the modifiers, and the letters of the player's layout.
+#[derive(Debug, Default)]
+pub(crate) struct Keyboard {
+    /// With what each was for when it went down: a modifier that comes later changes nothing.
+    held: Vec<(KeyCode, Option<Control>)>,
+    modifiers: ModifiersState,
+    letters: Letters,
+    is_unknown: bool,
+}
+
+/// What a stroke asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wish {
+    /// A direction's first key went down.
+    Tilt(Direction),
+    Act(Action),
+}
+
+impl Keyboard {
+    pub(crate) fn set_modifiers(&mut self, modifiers: ModifiersState) {
+        self.modifiers = modifiers;
+    }
+
+    /// Takes note of a stroke, and says what is to be done about it.
+    pub(crate) fn stroke(&mut self, stroke: &Stroke) -> Option<Wish> {
+        let was = self.held.iter().position(|(place, _)| *place == stroke.place);
+        if !stroke.is_pressed {
+            was.map(|index| self.held.remove(index));
+            return None;
+        }
+        if let Some(index) = was {
+            // The keyboard repeats it.
+            return match self.held[index].1 {
+                Some(Control::Act(action)) if action.repeats() => Some(Wish::Act(action)),
+                _ => None,
+            };
+        }
+        self.learn(stroke);
+        let control = stroke.control().filter(|control| self.allows(*control));
+        self.held.push((stroke.place, control));
+        match control? {
+            Control::Tilt(direction) => Some(Wish::Tilt(direction)),
+            // It was pressed for another window.
+            Control::Act(_) if stroke.is_synthetic => None,
+            Control::Act(action) => Some(Wish::Act(action)),
+        }
+    }
+
+    /// Shortcuts of the desktop and the window system are none of ours. Shift is needed to print some of the marks that
+    /// are shown for actions.
+    fn allows(&self, control: Control) -> bool {
+        match control {
+            Control::Tilt(_) => self.modifiers.is_empty(),
+            Control::Act(_) => (self.modifiers - ModifiersState::SHIFT).is_empty(),
+        }
+    }
+
+    /// The window lost the keyboard: no release will come.
+    pub(crate) fn release_all(&mut self) {
+        self.held.clear();
+    }
+
+    /// The directions in which any key is down.
+    pub(crate) fn directions(&self) -> impl Iterator<Item = Direction> {
+        self.held.iter().filter_map(|(_, control)| match control {
+            Some(Control::Tilt(direction)) => Some(*direction),
+            _ => None,
+        })
+    }
+
+    /// Takes note of what is printed on a key, for [`Keyboard::letter_of`].
+    fn learn(&mut self, stroke: &Stroke) {
+        if let Key::Character(letter) = &stroke.letter {
+            self.is_unknown |= !self.letters.see(stroke.place, &letter.to_uppercase());
+        }
+    }
+
+    /// Whether a key printed what no known layout explains, since this was asked last: then the window system may know more.
+    pub(crate) fn take_unknown(&mut self) -> bool {
+        std::mem::take(&mut self.is_unknown)
+    }
+
+    /// The layouts that the window system tells of, if any; what was seen of the last press stays true.
+    pub(crate) fn set_layouts(&mut self, layouts: Vec<Layout>, last: Option<&Stroke>) {
+        self.letters.set_layouts(layouts);
+        if let Some(stroke) = last {
+            self.learn(stroke);
+            self.is_unknown = false;
+        }
+    }
+
+    /// The letter of a control's first key that is told by its place.
+    pub(crate) fn letter_of(&self, control: Control) -> String {
+        let place = bindings::keys_of(control).iter().find_map(|key| match key {
+            bindings::Key::Place(place) => Some(*place),
+            bindings::Key::Name(_) => None,
+        });
+        place.map_or("?".to_owned(), |place| self.letters.name(place))
+    }
+
+    /// All letters, to be compared with those of another frame.
+    pub(crate) fn letters(&self) -> &Letters {
+        &self.letters
+    }
+}
+
+#[cfg(test)]
+mod tests;
