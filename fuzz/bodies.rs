@@ -14,9 +14,9 @@ pub(crate) fn obj(bytes: &[u8]) {
 /// An SVG: written and read again it is the same maze, or the same in larger cells where no wall is one cell long or one
 /// cell from the next.
 pub(crate) fn svg(bytes: &[u8]) {
-    let Ok(maze) = import::svg::read(bytes) else { return };
+    let Ok(maze) = import::svg::read_cells(bytes) else { return };
     let text = export::svg::write(&maze.layout, maze.solution.as_deref(), "");
-    let again = import::svg::read(text.as_bytes());
+    let again = import::svg::read_cells(text.as_bytes());
     let again = again.unwrap_or_else(|error| panic!("{error}: {text}"));
     let [one, other] = [&maze.layout, &again.layout].map(|layout| [layout.width(), layout.height()]);
     if one == other {
@@ -112,7 +112,7 @@ pub(crate) fn layout(layout: &Layout) {
     assert_eq!(one.planes, other.planes);
     let solution = layout.solution();
     let svg = export::svg::write(layout, solution.as_deref(), "");
-    let back = import::svg::read(svg.as_bytes()).expect("an SVG of ours");
+    let back = import::svg::read_cells(svg.as_bytes()).expect("an SVG of ours");
     assert_eq!((&back.layout, &back.solution), (layout, &solution));
     text_round_trip(&Blocks::of_layout(layout));
 }

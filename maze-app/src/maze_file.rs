@@ -131,13 +131,8 @@ pub(crate) fn load(path: &Path, options: &AssembleOptions, hints: &Hints) -> Res
 
 fn svg(bytes: &[u8], options: &AssembleOptions) -> Result<Loaded, String> {
     let svg = import::svg::read(bytes).map_err(|error| error.to_string())?;
-    let maze = svg.layout.maze(options).map_err(|error| error.to_string())?;
-    let (layout, [cell_x, cell_y]) = (&svg.layout, svg.cell);
-    let mut found = format!("{} x {} cells of {cell_x} x {cell_y}", layout.width(), layout.height());
-    if let Some(way) = &svg.solution {
-        found += &format!("; the solution drawn in it, {} cells long, is a shortest way", way.len());
-    }
-    Ok(Loaded { maze, found: Some(found) })
+    let maze = svg.maze(options).map_err(|error| error.to_string())?;
+    Ok(Loaded { maze, found: Some(svg.found()) })
 }
 
 /// Checks an output's name before the work is done for it; `solution` must be possible there.

@@ -132,6 +132,15 @@ pub enum AssembleError {
     },
 }
 
+/// What is known of a file besides its polygons, in its units across the up axis.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Given {
+    /// Start and goal; what the options say goes before them.
+    pub(crate) ends: [Option<Vector2<f64>>; 2],
+    /// Width of a corridor, else it is found.
+    pub(crate) corridor: Option<f64>,
+}
+
 impl AssembleError {
     /// Why there is no start or no goal for a ball of this radius, in corridors.
     fn of_way(error: WayError, radius: f64) -> Self {
@@ -186,15 +195,17 @@ impl Maze {
         options: &AssembleOptions,
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
-        Self::assembled(mesh, options, [None; 2], tell)
+        Self::assembled(mesh, options, &Given::default(), tell)
     }
 
-    /// [`Maze::from_polygons_step_by_step`] with the start and goal of the file, in its units across the up axis; what the options
-    /// say goes before them.
+    /// [`Maze::from_polygons_step_by_step`] with what is known of a file besides its polygons.
+    ///
+    /// # Errors
+    /// As there.
     pub(crate) fn assembled(
         mesh: &PolygonMesh,
         options: &AssembleOptions,
-        ends: [Option<Vector2<f64>>; 2],
+        given: &Given,
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
         let axes = match options.up_axis {
@@ -203,7 +214,7 @@ impl Maze {
         };
         let mut first_error = None;
         for axis in axes {
-            match Self::standing(mesh, axis, options, ends, tell) {
+            match Self::standing(mesh, axis, options, given, tell) {
                 // What the user asked for is meant for the axis that stands first: no other one is an answer to it.
                 Err(
                     error @ (AssembleError::NotFree { .. }
@@ -221,7 +232,7 @@ impl Maze {
         mesh: &PolygonMesh,
         up_axis: UpAxis,
         options: &AssembleOptions,
-        ends: [Option<Vector2<f64>>; 2],
+        given: &Given,
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
         tell(Stage::Faces);
@@ -243,12 +254,13 @@ impl Maze {
             covers = board::Covers::new(&survey, &raw_section);
         }
         covers.note_roof(&mut survey);
-        let mut corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
+        let corridor_of = |section: &Section| section.corridor().map(|found| given.corridor.unwrap_or(found));
+        let mut corridor = corridor_of(&raw_section).ok_or(AssembleError::NoCorridor)?;
         if !is_turned_over {
             let radius = options.ball_radius.unwrap_or(BallSpec::RADIUS).units() * corridor;
             if let Some(section) = with_low_walls(&mut survey, &raw_section, radius)? {
                 raw_section = section;
-                corridor = raw_section.corridor().ok_or(AssembleError::NoCorridor)?;
+                corridor = corridor_of(&raw_section).ok_or(AssembleError::NoCorridor)?;
                 covers = board::Covers::new(&survey, &raw_section);
             }
         }
@@ -262,7 +274,7 @@ impl Maze {
         tell(Stage::Way);
         let wishes = Wishes {
             exact: [options.start, options.goal],
-            near: ends.map(|end| end.map(|end| Vector2::new(frame.x(end.x), frame.y(end.y)))),
+            near: given.ends.map(|end| end.map(|end| Vector2::new(frame.x(end.x), frame.y(end.y)))),
         };
         // In corridors, which are 1 unit wide unless a scale was asked for.
         let width = options.scale.map_or(1.0, |scale| scale * corridor);

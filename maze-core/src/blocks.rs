@@ -1,11 +1,12 @@
 //! Mazes of square blocks, each wall or free: text and pictures, and the grid behind a [`Layout`].
 
-use crate::assemble::{AssembleError, AssembleOptions};
+use crate::assemble::{AssembleError, AssembleOptions, Given};
 use crate::extrude::{self, WALL_HEIGHT};
 use crate::layout::{Layout, Side};
 use crate::maze::Maze;
 use crate::polygons::{PolygonMesh, UpAxis};
 use nalgebra::Vector2;
+use std::collections::BTreeSet;
 
 /// Most rectangles that the lines along the blocks' edges may make: a maze of 200 x 200 cells has 401 x 401.
 const MAX_PIECES: usize = 1 << 18;
@@ -14,14 +15,25 @@ const MAX_PIECES: usize = 1 << 18;
 /// ask for any number of them, and it takes some 300 bytes each to find the way between them.
 const MAX_FACES: usize = 160_000;
 
+/// Where columns and rows of blocks begin.
+#[derive(Clone, Debug, PartialEq)]
+enum Lines {
+    /// At whole numbers.
+    Even,
+    /// Even columns and rows are walls and posts, as thin as those of a layout.
+    ThinWalls,
+    /// There.
+    At(Box<[Vec<f64>; 2]>),
+}
+
 /// A rectangle of blocks. Row 0 is the lowest.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Blocks {
     width: usize,
     height: usize,
     wall: Vec<bool>,               // [y * width + x]
     ends: [Option<[usize; 2]>; 2], // free blocks: start and goal
-    has_thin_walls: bool,          // even columns and rows are walls and posts, as in a layout
+    lines: Lines,
 }
 
 /// Why blocks are no maze.
@@ -67,12 +79,49 @@ impl Blocks {
         let is_free = |[x, y]: &[usize; 2]| *x < width && *y < height && !wall[y * width + x];
         let fits = width.checked_mul(height) == Some(wall.len());
         let fits = fits && ends.iter().flatten().all(is_free);
-        fits.then_some(Self { width, height, wall, ends, has_thin_walls: false })
+        fits.then_some(Self { width, height, wall, ends, lines: Lines::Even })
     }
 
     /// The same blocks, of which those in even columns and rows are as thin as the walls of a [`Layout`].
     pub(crate) fn with_thin_walls(self) -> Self {
-        Self { has_thin_walls: true, ..self }
+        Self { lines: Lines::ThinWalls, ..self }
+    }
+
+    /// The same blocks with start and goal; one that is a wall is left out.
+    pub(crate) fn with_ends(self, ends: [Option<[usize; 2]>; 2]) -> Self {
+        let ends =
+            ends.map(|end| end.filter(|[x, y]| *x < self.width && *y < self.height && !self.is_wall(*x, *y)));
+        Self { ends, ..self }
+    }
+
+    /// The same blocks, between these coordinates along x and y, which ascend and are one more than the blocks.
+    pub(crate) fn with_lines(self, lines: [Vec<f64>; 2]) -> Self {
+        debug_assert_eq!([self.width + 1, self.height + 1], [lines[0].len(), lines[1].len()]);
+        Self { lines: Lines::At(Box::new(lines)), ..self }
+    }
+
+    /// Whether a block between walls has walls at none of its sides.
+    pub(crate) fn is_lonely_post(&self, x: usize, y: usize) -> bool {
+        let beside = [
+            0 < x && self.is_wall(x - 1, y),
+            self.is_wall(x + 1, y),
+            0 < y && self.is_wall(x, y - 1),
+            self.is_wall(x, y + 1),
+        ];
+        beside == [false; 4]
+    }
+
+    /// The same blocks without those posts at which no wall ends, but for these, given as x and y.
+    pub(crate) fn without_lonely_posts(mut self, kept: &[[usize; 2]]) -> Self {
+        let kept: BTreeSet<[usize; 2]> = kept.iter().copied().collect();
+        for (x, y) in
+            (0..self.height).step_by(2).flat_map(|y| (0..self.width).step_by(2).map(move |x| (x, y)))
+        {
+            if self.is_lonely_post(x, y) && !kept.contains(&[x, y]) {
+                self.wall[y * self.width + x] = false;
+            }
+        }
+        self
     }
 
     /// Posts, walls and corridors of a layout in turn, `2 n + 1` blocks along each axis; its doors are gaps.
@@ -89,7 +138,7 @@ impl Blocks {
             _ => true,
         };
         let wall = (0..width * height).map(|index| is_wall(index % width, index / width)).collect();
-        Self { width, height, wall, ends: [None; 2], has_thin_walls: true }
+        Self { width, height, wall, ends: [None; 2], lines: Lines::ThinWalls }
     }
 
     /// Blocks along x.
@@ -128,9 +177,13 @@ impl Blocks {
         [xs.collect(), ys.collect()]
     }
 
-    /// Where the k-th column or row of blocks begins, in blocks.
-    fn line(&self, k: usize) -> f64 {
-        if self.has_thin_walls { extrude::line(k) } else { to_f64(k) }
+    /// Where the k-th column (axis 0) or row (axis 1) of blocks begins.
+    fn line(&self, axis: usize, k: usize) -> f64 {
+        match &self.lines {
+            Lines::Even => to_f64(k),
+            Lines::ThinWalls => extrude::line(k),
+            Lines::At(lines) => lines[axis].get(k).copied().unwrap_or(0.0),
+        }
     }
 
     /// The maze of these blocks. Its up axis is z whatever the options say.
@@ -139,14 +192,17 @@ impl Blocks {
     /// Too many blocks, blocks that make no maze, and ends where the ball does not fit.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let [xs, ys] = self.edges();
-        let point = |[x, y]: [usize; 2]| {
-            let [x, y] = [x, y].map(|at| (self.line(at) + self.line(at + 1)) / 2.0);
-            Vector2::new(x, y)
+        let point = |block: [usize; 2]| {
+            let middle =
+                |axis: usize| (self.line(axis, block[axis]) + self.line(axis, block[axis] + 1)) / 2.0;
+            Vector2::new(middle(0), middle(1))
         };
-        let ends = self.ends.map(|end| end.map(point));
+        // Cells with thin walls are a corridor wide, also where they are a hall.
+        let corridor = (self.lines == Lines::ThinWalls).then_some(extrude::CORRIDOR);
+        let given = Given { ends: self.ends.map(|end| end.map(point)), corridor };
         let of_height = |height| {
-            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |k| self.line(k), height);
-            maze_of_grid([xs.len(), ys.len()], mesh, options, ends)
+            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |axis, k| self.line(axis, k), height);
+            maze_of_grid([xs.len(), ys.len()], mesh, options, &given)
         };
         let maze = of_height(WALL_HEIGHT)?;
         // Only now it is known how many blocks make a corridor.
@@ -161,7 +217,7 @@ impl Layout {
     /// Too many cells.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
         let lines = [self.width(), self.height()].map(|n| 2 * n + 2);
-        maze_of_grid(lines, || extrude::extrude(self), options, [None; 2])
+        maze_of_grid(lines, || extrude::extrude(self), options, &Given::default())
     }
 }
 
@@ -170,7 +226,7 @@ fn maze_of_grid(
     [n_x, n_y]: [usize; 2],
     mesh: impl Fn() -> PolygonMesh,
     options: &AssembleOptions,
-    ends: [Option<Vector2<f64>>; 2],
+    given: &Given,
 ) -> Result<Maze, BlocksError> {
     if MAX_PIECES < n_x.saturating_mul(n_y) {
         return Err(BlocksError::TooFine { n_x, n_y });
@@ -180,7 +236,7 @@ fn maze_of_grid(
         return Err(BlocksError::TooLarge { n_faces: mesh.n_faces() });
     }
     let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-    Maze::assembled(&mesh, &options, ends, &mut |_| ()).map_err(|error| match error {
+    Maze::assembled(&mesh, &options, given, &mut |_| ()).map_err(|error| match error {
         AssembleError::NoRoomNear { end } => BlocksError::NoRoomAt { end, name: ["start", "goal"][end] },
         error => error.into(),
     })

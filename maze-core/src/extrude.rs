@@ -26,16 +26,16 @@ pub fn extrude(layout: &Layout) -> PolygonMesh {
     Grid { xs, ys, height: WALL_HEIGHT, is_wall: |i, j| blocks.is_wall(i, j) }.mesh()
 }
 
-/// Blocks as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece, and `line` is where an edge lies.
+/// Blocks as a mesh; `xs` and `ys` are their edges, so that what does not differ is one piece, and `line` is where an edge along an axis lies.
 pub(crate) fn extrude_blocks(
     blocks: &Blocks,
     xs: &[usize],
     ys: &[usize],
-    line: impl Fn(usize) -> f64,
+    line: impl Fn(usize, usize) -> f64,
     height: f64,
 ) -> PolygonMesh {
-    let lines = |edges: &[usize]| edges.iter().map(|edge| line(*edge)).collect();
-    Grid { xs: lines(xs), ys: lines(ys), height, is_wall: |i, j| blocks.is_wall(xs[i], ys[j]) }.mesh()
+    let lines = |axis: usize, edges: &[usize]| edges.iter().map(|edge| line(axis, *edge)).collect();
+    Grid { xs: lines(0, xs), ys: lines(1, ys), height, is_wall: |i, j| blocks.is_wall(xs[i], ys[j]) }.mesh()
 }
 
 /// Rectangles between lines, each wall or free.

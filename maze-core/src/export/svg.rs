@@ -1,5 +1,6 @@
 //! Layouts -> SVG, in the form of mazegenerator.net.
 
+use crate::blocks::Blocks;
 use crate::extrude::runs;
 use crate::layout::{Layout, Side};
 use std::fmt::Write;
@@ -33,6 +34,13 @@ pub fn write(layout: &Layout, solution: Option<&[usize]>, comment: &str) -> Stri
     }
     for x in 0..=width {
         runs(height, |row| is_wall_left(layout, x, row)).for_each(|[start, end]| line([x, start], [x, end]));
+    }
+    // A post at which no wall ends is a stroke without a length, which square caps make a dot.
+    let blocks = Blocks::of_layout(layout);
+    for (x, row) in (1..height).flat_map(|row| (1..width).map(move |x| (x, row))) {
+        if blocks.is_lonely_post(2 * x, 2 * (height - row)) {
+            line([x, row], [x, row]);
+        }
     }
     text.push_str("  </g>\n");
     if let Some(points) = solution.and_then(|cells| solution_points(layout, cells)) {

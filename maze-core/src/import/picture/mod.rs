@@ -75,7 +75,7 @@ pub enum PictureError {
 }
 
 /// What was found in a picture.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
     /// Walls, one block a cell.
     pub blocks: Blocks,

@@ -47,12 +47,28 @@ pub(super) fn maze(chains: &[Chain]) -> Result<SvgMaze, SvgError> {
     }
     let layout = walls.layout()?;
     let solution = solution.map(|chain| checked_solution(chain, &grid, &layout)).transpose()?;
-    Ok(SvgMaze { layout, solution, cell: grid.cell, corner: grid.corner })
+    let posts = posts(chains, &grid);
+    Ok(SvgMaze { layout, solution, cell: grid.cell, corner: grid.corner, posts, ends: [None; 2] })
 }
 
-/// What the walls are drawn with: lines if there are any, else paths, else polylines, of the colour of the first one.
+/// Strokes without a length at corners of cells.
+fn posts(chains: &[Chain], grid: &Grid) -> Vec<[usize; 2]> {
+    let dots = chains.iter().filter(|chain| 1 < chain.points.len() && strokes(chain).next().is_none());
+    let corner = |chain: &Chain| {
+        let point = *chain.points.first()?;
+        // Rows of blocks are counted from below.
+        Some([2 * grid.line(point, 0)?, 2 * (grid.n_cells[1] - grid.line(point, 1)?)])
+    };
+    dots.filter_map(corner).collect()
+}
+
+/// What the walls are drawn with: black or grey if there is any, lines if there are any, else paths, else polylines, of the
+/// colour of the first one.
 fn reference(chains: &[Chain]) -> Result<(Source, usize), SvgError> {
-    let first = chains.iter().filter(|chain| 1 < chain.points.len()).min_by_key(|chain| chain.source);
+    let first = chains
+        .iter()
+        .filter(|chain| 1 < chain.points.len())
+        .min_by_key(|chain| (chain.is_coloured, chain.source));
     first.map(|chain| (chain.source, chain.stroke)).ok_or(SvgError::NoWalls)
 }
 

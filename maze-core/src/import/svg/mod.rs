@@ -3,8 +3,14 @@
 mod drawing;
 mod grid;
 mod numbers;
+mod painted;
+mod style;
 
+use crate::assemble::AssembleOptions;
+use crate::blocks::{Blocks, BlocksError, to_f64};
 use crate::layout::{Layout, LayoutSizeError};
+use crate::maze::Maze;
+use drawing::Drawing;
 
 /// Why an SVG is no rectangular maze.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -79,8 +85,18 @@ pub enum SvgError {
         /// Of all.
         n_walls: usize,
     },
-    /// Areas.
-    #[error("line {line}: <{element}>: expected walls drawn as lines, not as areas or copies")]
+    /// More than a drawing has.
+    #[error("line {line}: too many {what}: expected at most {most}")]
+    TooMuch {
+        /// Where it was too much, counted from 1.
+        line: usize,
+        /// Of what.
+        what: &'static str,
+        /// How many there may be.
+        most: usize,
+    },
+    /// Pictures and the like.
+    #[error("line {line}: <{element}>: expected walls drawn as lines or areas")]
     Element {
         /// Counted from 1.
         line: usize,
@@ -88,7 +104,7 @@ pub enum SvgError {
         element: String,
     },
     /// No lines.
-    #[error("no walls: expected <line> elements, as mazegenerator.net writes them")]
+    #[error("no walls: expected lines or areas that are painted and seen")]
     NoWalls,
     /// What is drawn is the way and not the wall.
     #[error(
@@ -130,6 +146,14 @@ pub enum SvgError {
         left: f64,
         /// Of the grid.
         top: f64,
+    },
+    /// Too many edges.
+    #[error("{n_x} x {n_y} distinct edges of walls: expected plain walls")]
+    TooFine {
+        /// Along x.
+        n_x: usize,
+        /// Along y.
+        n_y: usize,
     },
     /// No grid at all.
     #[error("line {line}: the walls lie on no grid of equal cells: expected a rectangular maze")]
@@ -175,15 +199,117 @@ pub struct SvgMaze {
     pub cell: [f64; 2],
     /// Upper left corner of the outer wall in the file's units.
     pub corner: [f64; 2],
+    /// Dots at corners of cells, at which no wall need end: blocks of [`Blocks::of_layout`] as x and y.
+    pub posts: Vec<[usize; 2]>,
+    /// Start and goal, where a green and a red mark lie: blocks as x and y.
+    pub ends: [Option<[usize; 2]>; 2],
 }
 
-/// The maze of an SVG. The cell's size and the corner are found from the lines; what else is in the file (title,
-/// description, texts, a background, circles as marks) is not looked at.
+impl SvgMaze {
+    /// The block of the cell at a point of the file.
+    fn block_at(&self, point: [f64; 2]) -> Option<[usize; 2]> {
+        let size = [self.layout.width(), self.layout.height()];
+        let cell = |axis: usize| {
+            let position = (point[axis] - self.corner[axis]) / self.cell[axis];
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "0 to the number of cells"
+            )]
+            (0.0 <= position && position < to_f64(size[axis])).then_some(position as usize)
+        };
+        Some([2 * cell(0)? + 1, 2 * (size[1] - 1 - cell(1)?) + 1])
+    }
+}
+
+/// The maze of an SVG of equal cells with lines between them. The cell's size and the corner are found from the lines; what
+/// else is in the file (title, description, texts, a background, areas and dots as marks) is not looked at.
 ///
 /// # Errors
-/// With the line where there is one, and by name for the other kinds of maze that the site makes.
-pub fn read(bytes: &[u8]) -> Result<SvgMaze, SvgError> {
-    grid::maze(&drawing::read(bytes)?)
+/// With the line where there is one, and by name for the other kinds of maze that mazegenerator.net makes.
+pub fn read_cells(bytes: &[u8]) -> Result<SvgMaze, SvgError> {
+    cells(&drawing::read(bytes)?)
+}
+
+fn cells(drawing: &Drawing) -> Result<SvgMaze, SvgError> {
+    grid::maze(&drawing.chains()?)
+}
+
+/// What an SVG is.
+#[derive(Clone, Debug)]
+pub enum SvgPlan {
+    /// Equal cells with lines between them.
+    Cells(SvgMaze),
+    /// Walls of whatever thickness, as they are painted.
+    Painted {
+        /// The walls.
+        blocks: Blocks,
+        /// How they were read, in words.
+        found: String,
+    },
+}
+
+/// The maze of any SVG: lines between equal cells, else walls as they are painted.
+///
+/// # Errors
+/// With the line where there is one.
+pub fn read(bytes: &[u8]) -> Result<SvgPlan, SvgError> {
+    let drawing = drawing::read(bytes)?;
+    let painted = || {
+        let painted = painted::walls(&drawing)?;
+        Ok(SvgPlan::Painted { blocks: painted.blocks, found: painted.words })
+    };
+    if drawing.has_areas() {
+        return painted();
+    }
+    match cells(&drawing) {
+        Ok(mut maze) => {
+            maze.ends = painted::spots(&drawing).map(|spot| spot.and_then(|point| maze.block_at(point)));
+            Ok(SvgPlan::Cells(maze))
+        }
+        Err(
+            error @ (SvgError::OffGrid { .. }
+            | SvgError::NoGrid { .. }
+            | SvgError::NoWalls
+            | SvgError::OpenBorder { .. }
+            | SvgError::Slanted { .. }
+            | SvgError::SolutionThroughWall { .. }
+            | SvgError::SolutionLonger { .. }),
+        ) => painted().map_err(|_: SvgError| error),
+        Err(error) => Err(error),
+    }
+}
+
+impl SvgPlan {
+    /// The maze in maze units.
+    ///
+    /// # Errors
+    /// Walls that make no maze.
+    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
+        match self {
+            Self::Cells(cells) => {
+                let blocks = Blocks::of_layout(&cells.layout).without_lonely_posts(&cells.posts);
+                blocks.with_ends(cells.ends).maze(options)
+            }
+            Self::Painted { blocks, .. } => blocks.maze(options),
+        }
+    }
+
+    /// How it was read, in words.
+    pub fn found(&self) -> String {
+        match self {
+            Self::Cells(SvgMaze { layout, cell: [cell_x, cell_y], solution, ends, .. }) => {
+                let mut found =
+                    format!("{} x {} cells of {cell_x} x {cell_y}", layout.width(), layout.height());
+                if let Some(way) = solution {
+                    found +=
+                        &format!("; the solution drawn in it, {} cells long, is a shortest way", way.len());
+                }
+                found + &painted::spot_words(*ends)
+            }
+            Self::Painted { found, .. } => found.clone(),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -59,17 +59,18 @@ fn number_length(bytes: &[u8]) -> usize {
     end
 }
 
-/// A list of points; `None` when it is something else.
-pub(super) fn points(text: &str) -> Option<Vec<[f64; 2]>> {
-    let numbers: Option<Vec<f64>> = Tokens(text)
-        .map(|token| match token {
-            Token::Number(number) => Some(number),
-            _ => None,
-        })
-        .collect();
-    let numbers = numbers?;
-    let pairs = numbers.chunks_exact(2);
-    pairs.remainder().is_empty().then(|| pairs.map(|pair| [pair[0], pair[1]]).collect())
+/// A list of points; `None` when it is something else. After one more than `most` it is not read on.
+pub(super) fn points(text: &str, most: usize) -> Option<Vec<[f64; 2]>> {
+    let mut tokens = Tokens(text);
+    let mut points = Vec::new();
+    while let Some(x) = tokens.next() {
+        let (Token::Number(x), Some(Token::Number(y))) = (x, tokens.next()) else { return None };
+        points.push([x, y]);
+        if most < points.len() {
+            break;
+        }
+    }
+    Some(points)
 }
 
 /// x' = a x + c y + e, y' = b x + d y + f.
@@ -85,38 +86,29 @@ impl Transform {
     }
 
     /// This transform after another one.
-    fn after(&self, inner: &Self) -> Self {
+    pub(super) fn after(&self, inner: &Self) -> Self {
         let [a, b, c, d, _, _] = self.0;
         let [ia, ib, ic, id, ie, jf] = inner.0;
         let [e, f] = self.apply([ie, jf]);
         Self([a * ia + c * ib, b * ia + d * ib, a * ic + c * id, b * ic + d * id, e, f])
     }
 
-    /// This transform after those of an attribute: `translate`, `scale` and `matrix`; `None` for anything else.
+    /// This transform after those of an attribute; `None` where it is none.
     pub(super) fn after_list(&self, text: &str) -> Option<Self> {
-        let mut all = *self;
-        let mut rest = text.trim_matches(|c: char| c.is_ascii_whitespace() || c == ',');
-        while !rest.is_empty() {
-            let (name, tail) = rest.split_once('(')?;
-            let (numbers, tail) = tail.split_once(')')?;
-            let numbers: Option<Vec<f64>> = Tokens(numbers)
-                .map(|token| match token {
-                    Token::Number(number) => Some(number),
-                    _ => None,
-                })
-                .collect();
-            let one = match (name.trim(), &numbers?[..]) {
-                ("translate", &[x]) => [1.0, 0.0, 0.0, 1.0, x, 0.0],
-                ("translate", &[x, y]) => [1.0, 0.0, 0.0, 1.0, x, y],
-                ("scale", &[x]) => [x, 0.0, 0.0, x, 0.0, 0.0],
-                ("scale", &[x, y]) => [x, 0.0, 0.0, y, 0.0, 0.0],
-                ("matrix", &[a, b, c, d, e, f]) => [a, b, c, d, e, f],
-                _ => return None,
-            };
-            all = all.after(&Self(one));
-            rest = tail.trim_start_matches(|c: char| c.is_ascii_whitespace() || c == ',');
-        }
-        all.0.iter().all(|value| value.is_finite()).then_some(all)
+        let svgtypes::Transform { a, b, c, d, e, f } = text.parse().ok()?;
+        let all = self.after(&Self([a, b, c, d, e, f]));
+        all.0.iter().all(|value| value.is_finite() && value.abs() <= MAX_COORDINATE).then_some(all)
+    }
+
+    /// A translation.
+    pub(super) fn moved([x, y]: [f64; 2]) -> Self {
+        Self([1.0, 0.0, 0.0, 1.0, x, y])
+    }
+
+    /// By how much it makes things larger, in the mean of both axes.
+    pub(super) fn mean_scale(&self) -> f64 {
+        let [a, b, c, d, _, _] = self.0;
+        ((a * a + b * b).sqrt() + (c * c + d * d).sqrt()) / 2.0
     }
 }
 
@@ -150,10 +142,10 @@ mod tests {
         for bad in ["", "nan", "inf", "1e13", "50%", "1 2", "px"] {
             assert_eq!(length(bad), None, "{bad}");
         }
-        assert_eq!(points("1,2 3 4"), Some(vec![[1.0, 2.0], [3.0, 4.0]]));
-        assert_eq!(points(""), Some(vec![]));
-        assert_eq!(points("1,2 3"), None);
-        assert_eq!(points("1,2 L 3 4"), None);
+        assert_eq!(points("1,2 3 4", 9), Some(vec![[1.0, 2.0], [3.0, 4.0]]));
+        assert_eq!(points("", 9), Some(vec![]));
+        assert_eq!(points("1,2 3", 9), None);
+        assert_eq!(points("1,2 L 3 4", 9), None);
     }
 
     #[test]
@@ -162,7 +154,7 @@ mod tests {
         assert_eq!(both.apply([1.0, 3.0]), [12.0, 26.0]);
         let matrix = both.after_list(" matrix(0 1 -1 0 5 0) , translate(1)").unwrap();
         assert_eq!(matrix.apply([1.0, 3.0]), [14.0, 24.0]);
-        for bad in ["rotate(45)", "scale(a)", "scale", "scale(1", "translate(1,2,3)", "scale(nan)"] {
+        for bad in ["turn(45)", "scale(a)", "scale", "scale(1", "scale(nan)", "scale(1e200) scale(1e200)"] {
             assert_eq!(Transform::IDENTITY.after_list(bad), None, "{bad}");
         }
     }

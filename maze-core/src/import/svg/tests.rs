@@ -20,11 +20,11 @@ const SMALL: &str = r##"<?xml version="1.0" standalone="no"?>
 const SOLUTION: &str = r##"<polyline fill="none" stroke="#ff0000" points="10,2 10,26 26,26 26,34" />"##;
 
 fn loaded(text: &str) -> SvgMaze {
-    read(text.as_bytes()).unwrap()
+    read_cells(text.as_bytes()).unwrap()
 }
 
 fn message(text: &str) -> String {
-    read(text.as_bytes()).unwrap_err().to_string()
+    read_cells(text.as_bytes()).unwrap_err().to_string()
 }
 
 /// The small maze with something before the end.
@@ -34,7 +34,7 @@ fn with(extra: &str) -> String {
 
 /// Other strokes instead of the lines.
 fn drawn(elements: &str) -> String {
-    format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{elements}\n</svg>")
+    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" fill=\"none\" stroke=\"black\">\n{elements}\n</svg>")
 }
 
 fn lines_of(text: &str) -> Vec<&str> {
@@ -178,10 +178,7 @@ fn other_kinds_of_maze_are_refused_by_name() {
     );
     assert!(message(&passages).starts_with("draws the passages, not the walls"), "{}", message(&passages));
     assert!(message(&drawn("<path d=\"M0 0C1 1 2 2 3 3\"/>")).contains("a drawing of curves"));
-    assert!(
-        message(&drawn("<path d=\"M2 2h16\"/><rect width=\"4\" height=\"4\"/>"))
-            .contains("<rect>: expected walls")
-    );
+    assert!(message(&drawn("<path d=\"M2 2h16\"/><image width=\"4\"/>")).contains("<image>: expected walls"));
     let half = SMALL
         .replace("<line x1=\"34\"", "<path x1=\"34\"")
         .replace("x2=\"18\" y2=\"34\"", "x2=\"2\" y2=\"34\"");
@@ -202,8 +199,8 @@ fn what_is_no_svg_is_told_with_the_line() {
         mismatched.starts_with("line 11: not well-formed XML (") && mismatched.contains("`</h>`"),
         "{mismatched}"
     );
-    assert_eq!(read(b"<svg>\n\xff</svg>").unwrap_err(), SvgError::NotText { line: 2 });
-    assert_eq!(message(&drawn("")), "no walls: expected <line> elements, as mazegenerator.net writes them");
+    assert_eq!(read_cells(b"<svg>\n\xff</svg>").unwrap_err(), SvgError::NotText { line: 2 });
+    assert_eq!(message(&drawn("")), "no walls: expected lines or areas that are painted and seen");
     assert_eq!(message(&drawn("<line/>")).split(':').next(), Some("no walls"));
     assert_eq!(
         message(&SMALL.replace("y1=\"2\" x2=\"2\"", "y1=\"NaN\" x2=\"2\"")),
@@ -213,8 +210,8 @@ fn what_is_no_svg_is_told_with_the_line() {
         message(&SMALL.replace("x2=\"34\" y2=\"2\"", "x2=\"1e13\" y2=\"2\"")).contains("line 6: x2=\"1e13\"")
     );
     assert!(
-        message(&SMALL.replace("<g fill", "<g transform=\"rotate(45)\" fill"))
-            .contains("transform=\"rotate(45)\"")
+        message(&SMALL.replace("<g fill", "<g transform=\"turn(45)\" fill"))
+            .contains("transform=\"turn(45)\"")
     );
     assert!(message(&drawn("<path d=\"M 1 2 L 3\"/>")).contains("line 2: d=\"M 1 2 L 3\" of <path>"));
     assert!(message(&drawn("<polyline points=\"1,2 3\"/>")).contains("points=\"1,2 3\""));
@@ -253,6 +250,6 @@ fn depth_and_number_of_elements_do_no_harm() {
 fn a_file_cut_anywhere_is_a_maze_or_a_reason_and_never_a_panic() {
     let text = with(SOLUTION);
     for end in 0..text.len() {
-        let _ = read(&text.as_bytes()[..end]);
+        let _ = read_cells(&text.as_bytes()[..end]);
     }
 }
