@@ -21,8 +21,10 @@ use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
 use crate::game::{Game, to_f32};
 use crate::input::{Action, Keyboard, TiltControl};
+use crate::keeper::Keeper;
 use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
+use crate::rescue::{self, Kept, OpenWindow, Shared};
 use crate::slowness::Slowness;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
@@ -89,9 +91,8 @@ pub(crate) struct App {
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
     state_log_path: Option<PathBuf>,
     state_log: Option<StateLog>,
-    /// Where to write the run, and whether one that reached the goal stands there.
-    record: Option<PathBuf>,
-    is_recorded: bool,
+    /// Keeps the run to be written; nothing any more when one that reached the goal stands there.
+    keeper: Option<Keeper>,
     exit_after: Option<Duration>,
     quality: QualityChoice,
     options: Options,
@@ -101,6 +102,8 @@ pub(crate) struct App {
     /// Who drew the last frame: adapter, quality, size.
     drawn_by: Option<(String, Quality, [u32; 2])>,
     frame_log: FrameLog,
+    /// The frames once more, to be written when the program is ended from outside.
+    kept_frames: Option<(Shared<FrameLog>, Kept)>,
     shows_frames: bool,
     slowness: Slowness,
     /// The picture's quality is somebody's choice, and stays.
@@ -130,6 +133,8 @@ impl App {
         let usual = if waits { Unfocused::Pause } else { Unfocused::Run };
         let unfocused = setup.unfocused.unwrap_or(usual);
         let now = Instant::now();
+        let keeper =
+            setup.record.as_deref().map(|path| Keeper::new(path, &game, &setup.source)).transpose()?;
         Ok(Self {
             clock: Clock::new(game.tick_s()),
             keyboard: Keyboard::default(),
@@ -143,8 +148,7 @@ impl App {
             textures_flag: setup.textures_flag,
             state_log_path: setup.state_log,
             state_log: None,
-            record: setup.record,
-            is_recorded: false,
+            keeper,
             exit_after: setup.exit_after,
             quality: setup.quality,
             options,
@@ -152,6 +156,7 @@ impl App {
             graphics: None,
             drawn_by: None,
             frame_log: FrameLog::new(options.keep_s),
+            kept_frames: setup.csv.map(keep_frames),
             shows_frames: false,
             slowness: Slowness::default(),
             quality_is_chosen: setup.quality.is_chosen(),
@@ -172,10 +177,16 @@ impl App {
 
     /// Until the window closes.
     pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<Self, Failure> {
-        display::guarded(|| event_loop.run_app(&mut self))?.map_err(Failure::bad_input)?;
-        if !self.is_recorded {
-            self.write_recording()?;
+        let open = OpenWindow::new();
+        if let Some(time) = self.exit_after {
+            rescue::end_after(time);
         }
+        let ran = display::guarded(|| event_loop.run_app(&mut self));
+        drop(open);
+        // Whatever ended the game, what was played is written first.
+        let written = self.write_recording();
+        ran?.map_err(Failure::bad_input)?;
+        written?;
         match self.failure.take() {
             Some(failure) => Err(failure),
             None => Ok(self),
@@ -197,8 +208,7 @@ impl App {
     }
 
     fn write_recording(&self) -> Result<(), Failure> {
-        let Some(path) = &self.record else { return Ok(()) };
-        files::write_whole(path, &self.game.recording(&self.source)?.to_bytes())
+        self.keeper.as_ref().map_or(Ok(()), Keeper::write)
     }
 
     fn end_with(&mut self, event_loop: &ActiveEventLoop, failure: Failure) {
@@ -248,6 +258,7 @@ impl App {
             Action::Restart => {
                 self.control.level();
                 self.game.restart()?;
+                self.keep_anew()?;
             }
             Action::GoOn => {
                 let changed = self.source.go_on()?;
@@ -273,8 +284,14 @@ impl App {
             self.cover_with(self.textures_of(&self.source)?);
             self.load_into_graphics()?;
             self.begin();
+            self.keep_anew()?;
         }
         Ok(())
+    }
+
+    /// The game has begun anew.
+    fn keep_anew(&mut self) -> Result<(), Failure> {
+        self.keeper.as_mut().map_or(Ok(()), |keeper| keeper.begin(&self.game, &self.source))
     }
 
     /// Another maze is there: level, all of it in view.
@@ -296,6 +313,7 @@ impl App {
                 self.cover_with(textures);
                 self.load_into_graphics()?;
                 self.begin();
+                self.keep_anew()?;
             }
             Err(failure) => self.notice = Some((failure.to_string(), Instant::now())),
         }
@@ -314,11 +332,17 @@ impl App {
             // The other events are for sound; the screen reads the game's phase.
             let events = self.game.tick(tilt)?;
             if events.iter().any(|event| matches!(event, Event::Finished(_))) {
+                if let Some(keeper) = &mut self.keeper {
+                    keeper.add(&self.game);
+                }
                 self.write_recording()?;
-                self.is_recorded = true;
+                self.keeper = None;
             }
             self.n_ticks += 1;
             self.log_state()?;
+        }
+        if let Some(keeper) = &mut self.keeper {
+            keeper.add(&self.game);
         }
         Ok(())
     }
@@ -390,6 +414,9 @@ impl App {
         match graphics.draw(&scene, &hud, number)? {
             Drawn::Shown { encode, present } => {
                 self.frame_log.push(Parts { simulate, encode: prepare + encode, present });
+                if let Some((kept, _)) = &self.kept_frames {
+                    self.frame_log.copy_last_to(&mut rescue::lock(kept));
+                }
                 graphics.tell_times(&mut self.frame_log);
                 if self.first_frame.is_none() {
                     graphics.wait();
@@ -477,6 +504,7 @@ impl ApplicationHandler for App {
     }
 
     fn about_to_wait(&mut self, event_loop: &ActiveEventLoop) {
+        rescue::beat();
         let Some(graphics) = &self.graphics else { return };
         let now = Instant::now();
         if self.presence.is_hidden() || !graphics.has_area() {
@@ -493,4 +521,12 @@ impl ApplicationHandler for App {
         }
         event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));
     }
+}
+
+/// Frames that are written to a file when the program is ended from outside.
+fn keep_frames(csv: PathBuf) -> (Shared<FrameLog>, Kept) {
+    let log = Shared::new(FrameLog::new(f64::MAX).into());
+    let kept = Shared::clone(&log);
+    let save = move || files::write_whole(&csv, rescue::lock(&kept).csv().as_bytes());
+    (log, rescue::keep(save))
 }

@@ -1,5 +1,6 @@
 //! Why a command did not do what it was asked: one line and an exit status.
 
+use maze_core::printable;
 use std::fmt::{Display, Formatter};
 use std::path::Path;
 use std::process::ExitCode;
@@ -38,7 +39,7 @@ impl Failure {
 impl Display for Failure {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
         let (Self::NotHeld(reason) | Self::BadInput(reason)) = self;
-        // One line, whatever a library said.
-        formatter.write_str(&reason.split_whitespace().collect::<Vec<_>>().join(" "))
+        // One line that does no harm, whatever a library or a file said.
+        formatter.write_str(&printable(reason))
     }
 }

@@ -1,27 +1,48 @@
 //! Files in and out; an output is whole or not there.
 
 use crate::failure::Failure;
+use crate::rescue;
+use maze_core::printable;
 use maze_render::{TextureSet, decode_texture};
 use std::fs;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read: far above any maze (a million faces are 60 MB).
 const MAX_BYTES: u64 = 1 << 28;
 
+/// How much longer than it says a file may be, that grows while it is read.
+const MAX_GROWTH: u64 = 1 << 20;
+
 /// The whole file.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    read_at_most(path, MAX_BYTES)
+}
+
+/// The whole file, if it is not longer than that.
+pub(crate) fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     let metadata = fs::metadata(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
     if !metadata.is_file() {
         // A pipe or a device may never end.
         let what = if metadata.is_dir() { "a directory" } else { "no ordinary file" };
         return Err(Failure::in_file(path, format!("is {what}, expected a file")));
     }
-    if MAX_BYTES < metadata.len() {
-        let n_bytes = metadata.len();
-        return Err(Failure::in_file(path, format!("{n_bytes} bytes, expected at most {MAX_BYTES}")));
+    let n_bytes = metadata.len();
+    if most < n_bytes {
+        return Err(Failure::in_file(path, format!("{n_bytes} bytes, expected at most {most}")));
     }
-    fs::read(path).map_err(|error| Failure::in_file(path, plain(&error)))
+    // What a file says of its length is not what it gives: those of /proc say 0.
+    let promised = n_bytes.saturating_add(MAX_GROWTH).min(most);
+    let mut bytes = Vec::with_capacity(usize::try_from(n_bytes).unwrap_or(0));
+    let file = fs::File::open(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
+    let read = file.take(promised + 1).read_to_end(&mut bytes);
+    read.map_err(|error| Failure::in_file(path, plain(&error)))?;
+    if promised < bytes.len() as u64 {
+        let reason =
+            format!("goes on after the {n_bytes} bytes that it says to have: expected an ordinary file");
+        return Err(Failure::in_file(path, reason));
+    }
+    Ok(bytes)
 }
 
 /// Writes beside the target under a temporary name, then renames.
@@ -38,10 +59,12 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
     let mut written = Vec::with_capacity(outputs.len());
     for (path, bytes) in outputs {
         expect_replaceable(path)?;
-        written.push((path, temporary(path, bytes).map_err(|error| failed(path, error))?));
+        let target = target_of(path);
+        let file = Temporary::new(&target, bytes).map_err(|error| failed(path, error))?;
+        written.push((path, target, file));
     }
-    for (path, file) in written.into_iter().rev() {
-        file.persist(path).map_err(|error| failed(path, error.error))?;
+    for (path, target, file) in written.into_iter().rev() {
+        file.persist(&target).map_err(|error| failed(path, error))?;
     }
     Ok(())
 }
@@ -64,24 +87,102 @@ pub(crate) fn write_numbered(
         let failed =
             |error: &std::io::Error| Failure::in_file(&path, format!("cannot write: {}", plain(error)));
         // Somebody else may have taken the name by now.
-        match temporary(&path, bytes).map_err(|error| failed(&error))?.persist_noclobber(&path) {
-            Ok(_) => return Ok(path),
-            Err(error) if error.error.kind() == std::io::ErrorKind::AlreadyExists => {}
-            Err(error) => return Err(failed(&error.error)),
+        match Temporary::new(&path, bytes).and_then(|file| file.persist_as_new(&path)) {
+            Ok(()) => return Ok(path),
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(failed(&error)),
         }
     }
     Err(Failure::in_file(directory, format!("{MAX_NUMBER} files {name}-....{ending} are there already")))
 }
 
-/// A file beside `path` that goes away unless it is persisted.
-fn temporary(path: &Path, bytes: &[u8]) -> std::io::Result<tempfile::NamedTempFile> {
-    let mut file = tempfile::Builder::new();
-    // A temporary file is private by default; the output is an ordinary file.
-    #[cfg(unix)]
-    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
-    let mut file = file.tempfile_in(directory_of(path))?;
-    file.write_all(bytes)?;
-    Ok(file)
+/// A file beside its target that goes away unless it gets the target's name, also when the program is ended.
+struct Temporary {
+    file: Option<tempfile::NamedTempFile>,
+    path: PathBuf,
+}
+
+impl Temporary {
+    fn new(target: &Path, bytes: &[u8]) -> std::io::Result<Self> {
+        let file = rescue::temporary(|| {
+            let mut file = tempfile::Builder::new();
+            // A temporary file is private by default; the output is an ordinary file, and stays what it was.
+            #[cfg(unix)]
+            {
+                use std::os::unix::fs::PermissionsExt;
+                let mode =
+                    fs::metadata(target).map_or(0o644, |metadata| metadata.permissions().mode() & 0o777);
+                file.permissions(fs::Permissions::from_mode(mode));
+            }
+            file.tempfile_in(directory_of(target))
+        })?;
+        let mut temporary = Self { path: file.path().to_path_buf(), file: Some(file) };
+        if let Some(file) = &mut temporary.file {
+            file.write_all(bytes)?;
+        }
+        Ok(temporary)
+    }
+
+    fn persist(mut self, target: &Path) -> std::io::Result<()> {
+        let Some(file) = self.file.take() else { return Ok(()) };
+        file.persist(target).map(|_| ()).map_err(|error| error.error)
+    }
+
+    fn persist_as_new(mut self, target: &Path) -> std::io::Result<()> {
+        let Some(file) = self.file.take() else { return Ok(()) };
+        file.persist_noclobber(target).map(|_| ()).map_err(|error| error.error)
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        // The file itself first: what is forgotten is not there any more.
+        self.file = None;
+        rescue::forget(&self.path);
+    }
+}
+
+/// The file that a path means: what a link leads to, so that the link stays one.
+fn target_of(path: &Path) -> PathBuf {
+    match fs::symlink_metadata(path) {
+        Ok(metadata) if metadata.file_type().is_symlink() => {
+            let whole = fs::canonicalize(path);
+            whole
+                .or_else(|_| fs::read_link(path).map(|target| directory_of(path).join(target)))
+                .unwrap_or_else(|_| path.to_path_buf())
+        }
+        _ => path.to_path_buf(),
+    }
+}
+
+/// A file that a command reads or writes, and what a message calls it.
+pub(crate) type Named<'a> = (&'a str, &'a Path);
+
+/// Checks before the work that every output can be written, and that none of them is an input or another output, by whatever
+/// name.
+pub(crate) fn expect_outputs(outputs: &[Named], inputs: &[Named]) -> Result<(), Failure> {
+    for (index, (name, path)) in outputs.iter().enumerate() {
+        expect_directory_of(path)?;
+        expect_replaceable(path)?;
+        for (other, known) in inputs.iter().chain(&outputs[..index]) {
+            if is_same_file(path, known) {
+                return Err(Failure::in_file(path, format!("{name} and {other} are one file: expected two")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether two paths mean one file, which need not be there yet.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    if let Ok(same) = same_file::is_same_file(one, other) {
+        return same;
+    }
+    let place = |path: &Path| {
+        let target = target_of(path);
+        Some((fs::canonicalize(directory_of(&target)).ok()?, target.file_name()?.to_os_string()))
+    };
+    place(one).is_some() && place(one) == place(other)
 }
 
 /// Checks that an output would not take the place of a device, a pipe or a directory.
@@ -104,10 +205,16 @@ fn directory_of(path: &Path) -> &Path {
 
 /// Checks that there is a directory to write to, before there is something to lose.
 pub(crate) fn expect_directory_of(path: &Path) -> Result<(), Failure> {
-    if directory_of(path).is_dir() && !path.is_dir() {
-        return Ok(());
+    let target = target_of(path);
+    if !directory_of(&target).is_dir() || path.is_dir() || path.file_name().is_none() {
+        return Err(Failure::in_file(
+            path,
+            "cannot write: expected a file's name in a directory that there is",
+        ));
     }
-    Err(Failure::in_file(path, "cannot write: expected a file's name in a directory that there is"))
+    // A directory may be there and not be ours to write to.
+    let probe = Temporary::new(&target, b"");
+    probe.map(drop).map_err(|error| Failure::in_file(path, format!("cannot write: {}", plain(&error))))
 }
 
 /// Prints to stdout. A reader that has seen enough (`| head`) is no error.
@@ -123,7 +230,7 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 /// Tells something that is no failure, on stderr.
 pub(crate) fn note(text: &str) {
     // Where nobody reads it, nothing is lost.
-    let _ = writeln!(std::io::stderr(), "maze-app: {text}");
+    let _ = writeln!(std::io::stderr(), "maze-app: {}", printable(text));
 }
 
 /// Checks an output's name before the work is done for it.

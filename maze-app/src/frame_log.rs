@@ -100,6 +100,15 @@ impl FrameLog {
         self.n_frames += 1;
     }
 
+    /// Notes the last frame in another log too.
+    pub(crate) fn copy_last_to(&self, other: &mut Self) {
+        other.frames.extend(
+            self.frames
+                .back()
+                .filter(|last| other.frames.back().is_none_or(|known| known.number < last.number)),
+        );
+    }
+
     /// Number of the frame that the next [`FrameLog::push`] notes.
     pub(crate) fn next_number(&self) -> u64 {
         self.n_frames

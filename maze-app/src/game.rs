@@ -161,6 +161,19 @@ impl Game {
         })
     }
 
+    /// Adds to a recording of this game what was played since; one of an earlier start begins anew.
+    pub(crate) fn continue_recording(&self, recording: &mut Recording) {
+        if self.tilts.len() < recording.tilts.len() {
+            recording.tilts.clear();
+        }
+        let n_known = recording.tilts.len();
+        let n_fitting = self.tilts.len().min(replay::MAX_TICKS);
+        recording.tilts.extend(self.tilts.get(n_known..n_fitting).unwrap_or_default());
+        if n_fitting == self.tilts.len() {
+            recording.final_hash = replay::state_hash(self.played_to);
+        }
+    }
+
     pub(crate) fn tick_s(&self) -> f64 {
         self.engine.tick_s()
     }

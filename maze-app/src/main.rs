@@ -11,6 +11,7 @@ mod files;
 mod frame_log;
 mod game;
 mod input;
+mod keeper;
 mod levels;
 mod maze_file;
 mod measures;
@@ -20,12 +21,14 @@ mod plot;
 mod progress;
 mod quality;
 mod recipe;
+mod rescue;
 mod sidecar;
 mod slowness;
 mod source;
 mod state_log;
 mod ui;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use failure::Failure;
 use std::io::Write;
@@ -72,6 +75,7 @@ enum Command {
 
 fn main() -> ExitCode {
     let started = Instant::now();
+    rescue::watch_signals();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => return usage(&error),
@@ -104,6 +108,14 @@ fn finish(result: Result<(), Failure>) -> ExitCode {
 fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         return finish(files::print(&error.to_string()));
+    }
+    if let Some(ContextValue::String(second)) = error.get(ContextKind::InvalidSubcommand)
+        && let Some(first) = std::env::args().skip(1).find(|word| !word.starts_with('-') && word != second)
+    {
+        // Two mazes, of which one is no subcommand either.
+        let reason =
+            format!("one maze at a time: found {second} after {first}, expected a subcommand or one file");
+        return finish(Err(Failure::bad_input(format!("{reason} (see --help)"))));
     }
     let text = error.to_string();
     let reason = text.split("\n\n").next().unwrap_or_default();

@@ -1,6 +1,7 @@
 //! What a long load is at, on a terminal that somebody watches.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use maze_core::printable;
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -24,19 +25,26 @@ impl Progress {
         if !std::io::stderr().is_terminal() {
             return Self { bar, waiting: None };
         }
-        bar.set_prefix(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned());
+        bar.set_prefix(printable(&path.file_name().unwrap_or(path.as_os_str()).to_string_lossy()));
         if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix}: {msg} ({elapsed})") {
             bar.set_style(style);
         }
         let (done, is_done) = channel();
         let shown = bar.clone();
-        let thread = std::thread::spawn(move || {
-            if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                shown.set_draw_target(ProgressDrawTarget::stderr());
-                shown.enable_steady_tick(BEAT);
+        let show = move || {
+            let mut wait = PATIENCE;
+            while is_done.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                if wait == PATIENCE {
+                    shown.set_draw_target(ProgressDrawTarget::stderr());
+                }
+                // The bar's own ticker would panic where no thread can be made.
+                shown.tick();
+                wait = BEAT;
             }
-        });
-        Self { bar, waiting: Some((done, thread)) }
+        };
+        // Where no thread can be made nobody is told; the work goes on.
+        let thread = std::thread::Builder::new().name("progress".to_owned()).spawn(show);
+        Self { bar, waiting: thread.ok().map(|thread| (done, thread)) }
     }
 
     pub(crate) fn tell(&self, stage: &'static str) {

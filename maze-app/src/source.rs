@@ -8,6 +8,7 @@ use crate::sidecar::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_ra
 use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
+use maze_core::replay::MAX_NAME;
 use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
 use std::path::{Path, PathBuf};
 
@@ -217,6 +218,21 @@ impl Source {
             Kind::Level { level, .. } => self.read.generate(&level.recipe).map(Loaded::from),
             Kind::Random(recipe) => self.read.generate(recipe).map(Loaded::from),
         }
+    }
+
+    /// The files that it is read from, for [`files::expect_outputs`].
+    pub(crate) fn inputs(&self) -> Vec<(&'static str, &Path)> {
+        self.file().map(|path| ("the maze", path)).into_iter().collect()
+    }
+
+    /// Checks that a recording can name this maze.
+    pub(crate) fn expect_recordable(&self) -> Result<(), Failure> {
+        let n_bytes = self.words()?.len();
+        if MAX_NAME < n_bytes {
+            let reason = format!("{n_bytes} bytes to name this maze: a recording takes at most {MAX_NAME}");
+            return Err(Failure::bad_input(reason));
+        }
+        Ok(())
     }
 
     /// The file it comes from.

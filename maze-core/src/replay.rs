@@ -16,7 +16,7 @@ pub const VERSION: u32 = 3;
 pub const MAX_TICKS: usize = 1_200_000;
 
 /// Longest name of a source or an engine (bytes).
-const MAX_NAME: usize = 4096;
+pub const MAX_NAME: usize = 4096;
 
 /// A run that can be played again bit for bit. Four bytes a tick: ten minutes of ticks of 0.03 s are 80 kB.
 #[derive(Clone, Debug, PartialEq)]

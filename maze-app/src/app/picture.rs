@@ -130,6 +130,7 @@ mod tests {
             max_tilt_rad: 0.3,
             state_log: None,
             record: None,
+            csv: None,
             exit_after: None,
             unfocused: None,
             quality: QualityChoice::Auto,

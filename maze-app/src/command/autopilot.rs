@@ -5,6 +5,7 @@ use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
 use crate::game::Game;
+use crate::keeper::Keeper;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use maze_core::replay::MAX_TICKS;
@@ -36,9 +37,11 @@ pub(crate) struct Arguments {
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let source = Source::new(&arguments.maze)?;
     if let Some(path) = &arguments.record {
-        files::expect_directory_of(path)?;
+        files::expect_outputs(&[("--record", path)], &source.inputs())?;
+        source.expect_recordable()?;
     }
     let mut game = Game::new(source.load()?, arguments.engine)?;
+    let mut kept = arguments.record.as_deref().map(|path| Keeper::new(path, &game, &source)).transpose()?;
     let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
         return Err(no_path(&source, game.maze()));
@@ -49,9 +52,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     while game.phase() != Phase::Finished && game.n_played() < MAX_TICKS {
         let tilt = autopilot.tilt(game.ball());
         let events = game.tick(tilt)?;
+        if let Some(kept) = &mut kept {
+            kept.add(&game);
+        }
         n_bounces += events.iter().map(|event| u64::from(matches!(event, Event::Bounced(_)))).sum::<u64>();
         deepest_penetration = deepest_penetration.max(game.last_tick().deepest_penetration);
     }
+    drop(kept);
     let (finished, n_ticks) = (game.phase() == Phase::Finished, game.n_played());
     if let Some(path) = &arguments.record {
         files::write_whole(path, &game.recording(&source)?.to_bytes())?;

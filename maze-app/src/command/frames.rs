@@ -86,14 +86,11 @@ pub(crate) fn run(arguments: &Arguments, started: Instant) -> Result<(), Failure
         files::expect_extension(path, "png")
             .map_err(|_| Failure::in_file(path, "expected a name that ends in .png or .svg"))?;
     }
-    if let (Some(csv), Some(plot)) = (&arguments.csv, &arguments.plot)
-        && csv == plot
-    {
-        return Err(Failure::in_file(plot, "expected another name for the plot than for the CSV"));
-    }
-    for path in [&arguments.csv, &arguments.plot].into_iter().flatten() {
-        files::expect_directory_of(path)?;
-    }
+    let csv = arguments.csv.as_deref().map(|path| ("--csv", path));
+    let plot = arguments.plot.as_deref().map(|path| ("--plot", path));
+    let outputs: Vec<files::Named> = csv.into_iter().chain(plot).collect();
+    let maze = arguments.file.as_deref().map(|path| ("the maze", path));
+    files::expect_outputs(&outputs, maze.as_slice())?;
     let measured = match arguments.offscreen {
         true => offscreen(arguments, started)?,
         false => in_a_window(arguments, started)?,
@@ -165,6 +162,7 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
         max_tilt_rad: MAX_TILT_DEGREES.to_radians(),
         state_log: None,
         record: None,
+        csv: arguments.csv.clone(),
         exit_after: Some(arguments.seconds),
         unfocused: None,
         quality: arguments.quality,

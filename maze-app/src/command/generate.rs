@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::recipe::{self, RecipeArguments};
 use crate::{files, maze_file, measures};
 use clap::Args;
-use maze_core::{AssembleOptions, Maze, extrude};
+use maze_core::{AssembleOptions, Maze, extrude, printable};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -28,6 +28,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     maze_file::expect_writable(&arguments.out, arguments.solution)?;
+    files::expect_outputs(&[("--out", &arguments.out)], &[])?;
     let recipe = arguments.recipe.recipe();
     let layout = recipe.layout().map_err(Failure::bad_input)?;
     let layout = if arguments.doors { layout.with_doors_top_and_bottom() } else { layout };
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let words = recipe::words(&recipe).join(" ").replace('=', " ") + doors;
     let solution = if arguments.solution { layout.solution() } else { None };
     maze_file::write(&arguments.out, &layout, solution.as_deref(), &format!("maze-app generate {words}"))?;
-    let mut lines = vec![format!("{}: {words}", arguments.out.display())];
+    let mut lines = vec![printable(&format!("{}: {words}", arguments.out.display()))];
     lines.extend(measures::lines(&maze));
     files::print(&(lines.join("\n") + "\n"))
 }

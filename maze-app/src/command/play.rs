@@ -67,6 +67,8 @@ pub(crate) struct Setup {
     pub(crate) max_tilt_rad: f64,
     pub(crate) state_log: Option<PathBuf>,
     pub(crate) record: Option<PathBuf>,
+    /// Where frames are written when the program is ended from outside.
+    pub(crate) csv: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
     pub(crate) unfocused: Option<Unfocused>,
     pub(crate) quality: QualityChoice,
@@ -74,8 +76,12 @@ pub(crate) struct Setup {
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let source = Source::new(&arguments.maze)?;
-    if let Some(path) = &arguments.record {
-        files::expect_directory_of(path)?;
+    let record = arguments.record.as_deref().map(|path| ("--record", path));
+    let state_log = arguments.state_log.as_deref().map(|path| ("--state-log", path));
+    let outputs: Vec<files::Named> = record.into_iter().chain(state_log).collect();
+    files::expect_outputs(&outputs, &source.inputs())?;
+    if record.is_some() {
+        source.expect_recordable()?;
     }
     let maze = source.load()?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
@@ -89,6 +95,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         max_tilt_rad,
         state_log: arguments.state_log,
         record: arguments.record,
+        csv: None,
         exit_after: arguments.exit_after,
         unfocused: arguments.unfocused,
         quality: arguments.quality,

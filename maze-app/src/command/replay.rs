@@ -6,7 +6,7 @@ use crate::files;
 use crate::game::Game;
 use crate::source::{MazeArguments, Source};
 use clap::{Args, Parser, ValueEnum};
-use maze_core::replay::{Recording, maze_hash, state_hash};
+use maze_core::replay::{MAX_TICKS, Recording, maze_hash, state_hash};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -22,6 +22,9 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
+/// Longest recording: four bytes a tick, and a head.
+const MAX_BYTES: u64 = 4 * MAX_TICKS as u64 + (1 << 16);
+
 /// A recording's source is the words that `play` takes.
 #[derive(Parser)]
 #[command(no_binary_name = true)]
@@ -32,8 +35,8 @@ struct SourceWords {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let in_file = |reason: String| Failure::in_file(&arguments.file, reason);
-    let recording =
-        Recording::from_bytes(&files::read(&arguments.file)?).map_err(|error| in_file(error.to_string()))?;
+    let bytes = files::read_at_most(&arguments.file, MAX_BYTES)?;
+    let recording = Recording::from_bytes(&bytes).map_err(|error| in_file(error.to_string()))?;
     let engine = EngineKind::from_str(&recording.engine, false).map_err(|_| {
         in_file(format!("recorded with an engine `{}`, which there is not", recording.engine))
     })?;

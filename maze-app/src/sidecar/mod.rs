@@ -9,6 +9,9 @@ use crate::files;
 use maze_render::TextureSet;
 use std::path::Path;
 
+/// Longest sidecar: a parser takes many times as much memory.
+const MAX_BYTES: u64 = 1 << 16;
+
 impl Sidecar {
     /// The one beside a maze file; the default where there is none.
     pub(crate) fn beside(maze: &Path) -> Result<Self, Failure> {
@@ -16,7 +19,7 @@ impl Sidecar {
         if path == maze || !path.exists() {
             return Ok(Self::default());
         }
-        let text = files::read(&path)?;
+        let text = files::read_at_most(&path, MAX_BYTES)?;
         let text = String::from_utf8(text).map_err(|_| Failure::in_file(&path, "expected text in UTF-8"))?;
         let mut sidecar = Self::parse(&text)
             .map_err(|(line, reason)| Failure::in_file(&path, format!("line {line}: {reason}")))?;
