@@ -4,6 +4,7 @@ use crate::{BadInput, files};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use maze_verify::bench::{BenchError, Plan, measure, n_steps, search, tick};
+use std::io::Write;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -27,7 +28,10 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<bool, BadInput> {
         return Err(BadInput("--max-planes leaves no maze: the smallest has 112 planes".to_owned()));
     }
     if cfg!(debug_assertions) {
-        eprintln!("note: figures of a debug build mean nothing; cargo run --release -p maze-verify -- bench");
+        let _ = writeln!(
+            std::io::stderr(),
+            "note: figures of a debug build mean nothing; cargo run --release -p maze-verify -- bench"
+        );
     }
     if let Some(out) = &arguments.out {
         files::make_directory(out)?;

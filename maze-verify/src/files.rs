@@ -2,11 +2,14 @@
 
 use crate::BadInput;
 use std::fmt::Display;
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::Path;
 
 /// Largest file that is read: a results.json of thousands of scenes.
 const MAX_BYTES: u64 = 1 << 28;
+
+/// Read beyond what is expected: some files of the system are read in whole blocks only.
+const BLOCK: u64 = 4096;
 
 /// Bad input, with the file's name in front.
 pub(crate) fn in_file(path: &Path, reason: impl Display) -> BadInput {
@@ -22,7 +25,14 @@ pub(crate) fn read_text(path: &Path) -> Result<String, BadInput> {
     if MAX_BYTES < metadata.len() {
         return Err(in_file(path, format!("{} bytes, expected at most {MAX_BYTES}", metadata.len())));
     }
-    let bytes = std::fs::read(path).map_err(|error| in_file(path, error))?;
+    // What a file says of its length is not what it gives.
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|error| in_file(path, error))?;
+    let most = metadata.len().saturating_add(1 << 20);
+    file.take(most + BLOCK).read_to_end(&mut bytes).map_err(|error| in_file(path, error))?;
+    if most < bytes.len() as u64 {
+        return Err(in_file(path, "goes on after the bytes that it says to have: expected an ordinary file"));
+    }
     String::from_utf8(bytes).map_err(|_| in_file(path, "not a text in UTF-8"))
 }
 
@@ -39,7 +49,11 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), BadInput> {
     let mut file = tempfile::Builder::new();
     // A temporary file is private by default; the output is an ordinary file.
     #[cfg(unix)]
-    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o644));
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = std::fs::metadata(path).map_or(0o644, |metadata| metadata.permissions().mode() & 0o777);
+        file.permissions(std::fs::Permissions::from_mode(mode));
+    }
     let mut file = file.tempfile_in(directory.unwrap_or(Path::new("."))).map_err(failed)?;
     file.write_all(bytes).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;

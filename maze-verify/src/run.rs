@@ -53,19 +53,24 @@ pub fn run(
     let done = Mutex::new(Vec::with_capacity(scenes.len()));
     let n_threads = std::thread::available_parallelism().map_or(1, usize::from).min(scenes.len().max(1));
     std::thread::scope(|scope| {
-        for _ in 0..n_threads {
-            scope.spawn(|| {
-                while let Some((index, scene)) = scenes.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let result = run_scene(*index, scene, engines, build);
-                    let failed = result.is_err();
-                    on_scene(&scene.name);
-                    done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(result);
-                    if failed {
-                        next.store(scenes.len(), Ordering::Relaxed);
-                    }
+        let work = || {
+            while let Some((index, scene)) = scenes.get(next.fetch_add(1, Ordering::Relaxed)) {
+                let result = run_scene(*index, scene, engines, build);
+                let failed = result.is_err();
+                on_scene(&scene.name);
+                done.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(result);
+                if failed {
+                    next.store(scenes.len(), Ordering::Relaxed);
                 }
-            });
+            }
+        };
+        for _ in 1..n_threads {
+            // Where no more threads can be made, those there are do the work.
+            if std::thread::Builder::new().spawn_scoped(scope, work).is_err() {
+                break;
+            }
         }
+        work();
     });
     done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner).into_iter().collect()
 }

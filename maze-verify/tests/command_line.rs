@@ -143,3 +143,66 @@ fn bad_usage_ends_with_status_2() {
         assert_eq!(verify(directory.path(), arguments).status.code(), Some(2), "{arguments:?}");
     }
 }
+
+#[test]
+fn r14_usage_errors_are_one_line() {
+    let directory = tempfile::tempdir().unwrap();
+    for arguments in [
+        &["run", "--bogus"][..],
+        &["run", "--engine", "none-such"],
+        &["run", "--partition", "5/2"],
+        &["merge"],
+        &["walk"],
+        &[],
+    ] {
+        let output = verify(directory.path(), arguments);
+        assert_refused(&output, &["error: ", "(see --help)"]);
+    }
+}
+
+#[test]
+fn r13_r17_messages_do_a_terminal_no_harm_and_are_short() {
+    let directory = tempfile::tempdir().unwrap();
+    let long = format!("[[scene]]\nname = \"{}\"\n", "9".repeat(5000));
+    std::fs::write(directory.path().join("long.toml"), long).unwrap();
+    std::fs::write(directory.path().join("key.toml"), "[[scene]]\n\"\\u001b[31mred\" = 1\n").unwrap();
+    for arguments in
+        [&["run", "\u{1b}[31m\u{202e}.toml"][..], &["run", "long.toml"], &["run", "key.toml"], &["\u{7}"]]
+    {
+        let output = verify(directory.path(), arguments);
+        assert_refused(&output, &[]);
+        let line = String::from_utf8(output.stderr).unwrap();
+        assert!(line.trim_end().chars().all(|c| !c.is_control() && c != '\u{202e}'), "{line:?}");
+        assert!(line.len() < 1500, "{line}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn r8_where_nobody_can_read_it_the_status_tells_all_the_same() {
+    let run = |line: &str| {
+        let status = Command::new("sh")
+            .args(["-c", &format!("\"$0\" {line}"), env!("CARGO_BIN_EXE_maze-verify")])
+            .status();
+        status.unwrap().code()
+    };
+    for (line, expected) in [
+        ("run /nonexistent.toml 2>/dev/full", 2),
+        ("run /nonexistent.toml 2>&-", 2),
+        ("run --bogus 2>/dev/full", 2),
+        ("list >/dev/full 2>/dev/full", 2),
+        ("list >&- 2>&-", 0),
+        ("run --scene head-on >/dev/null 2>/dev/full", 0),
+    ] {
+        let found = run(line);
+        assert!(found == Some(expected) || (line.contains(">&-") && found == Some(2)), "{line}: {found:?}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn r11_a_file_that_goes_on_after_what_it_says_is_refused() {
+    let directory = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink("/proc/self/pagemap", directory.path().join("p.toml")).unwrap();
+    assert_refused(&verify(directory.path(), &["run", "p.toml"]), &["p.toml", "expected an ordinary file"]);
+}

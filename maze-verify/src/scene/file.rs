@@ -5,7 +5,9 @@ use crate::engine::Motion;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{Ball, BallSpec, Bounds, Radius};
 use nalgebra::Vector2;
-use serde::Deserialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
@@ -14,8 +16,9 @@ const MAX_DURATION_S: f64 = 1000.0;
 const MIN_TICK_S: f64 = 1.0e-4;
 const MAX_TICKS: f64 = 1.0e6;
 
-/// Most rectangles: the plan is cut at all of their sides, into up to 16 million cells.
+/// Most rectangles, and most cells into which all of their sides cut the plan: rapier's mesh takes a kilobyte for each.
 const MAX_WALLS: usize = 2000;
+const MAX_CELLS: usize = 1 << 16;
 
 /// Largest coordinate (units) and speed (units/s) of a scene: rapier's f32 still tells 1e-3 units apart.
 const MAX_COORDINATE: f64 = 1.0e4;
@@ -29,6 +32,18 @@ pub struct SceneFileError {
     pub line: usize,
     /// What was expected.
     pub reason: String,
+}
+
+/// So many numbers and no more: of a longer list serde's arrays cut off the end without a word.
+#[derive(Clone, Copy, Debug)]
+struct Exactly<const N: usize>([f64; N]);
+
+impl<'de, const N: usize> Deserialize<'de> for Exactly<N> {
+    fn deserialize<D: Deserializer<'de>>(list: D) -> Result<Self, D::Error> {
+        let list = Vec::<f64>::deserialize(list)?;
+        let numbers = <[f64; N]>::try_from(list);
+        numbers.map(Self).map_err(|list| D::Error::invalid_length(list.len(), &&*format!("{N} numbers")))
+    }
 }
 
 #[derive(Deserialize)]
@@ -45,7 +60,7 @@ struct SceneToml {
     about: String,
     duration_s: Spanned<f64>,
     ticks_s: Option<Spanned<Vec<f64>>>,
-    walls: Option<Spanned<Vec<[f64; 4]>>>,
+    walls: Option<Spanned<Vec<Exactly<4>>>>,
     maze: Option<Spanned<MazeToml>>,
     ball: Option<Spanned<BallToml>>,
     #[serde(default)]
@@ -64,8 +79,8 @@ struct MazeToml {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BallToml {
-    position: Option<[f64; 2]>,
-    velocity: Option<[f64; 2]>,
+    position: Option<Exactly<2>>,
+    velocity: Option<Exactly<2>>,
     radius: Option<f64>,
     restitution: Option<f64>,
     #[serde(default)]
@@ -78,10 +93,10 @@ enum GravityToml {
     Flat,
     #[serde(rename_all = "snake_case")]
     Constant {
-        tilt_deg: [f64; 2],
+        tilt_deg: Exactly<2>,
     },
     Sinusoidal {
-        amplitude_deg: [f64; 2],
+        amplitude_deg: Exactly<2>,
         frequency_hz: f64,
     },
     Random {
@@ -95,9 +110,9 @@ enum GravityToml {
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 enum TruthToml {
     Room(RoomToml),
-    Corner { point: [f64; 2] },
-    Around { block: [f64; 4] },
-    Rest { place: [f64; 2] },
+    Corner { point: Exactly<2> },
+    Around { block: Exactly<4> },
+    Rest { place: Exactly<2> },
 }
 
 /// What a file states as true.
@@ -208,24 +223,34 @@ fn scene_from(place: &Text<'_>, scene: Spanned<SceneToml>) -> Result<Scene, Scen
 
 fn walls_from(
     place: &Text<'_>,
-    walls: Option<Spanned<Vec<[f64; 4]>>>,
+    walls: Option<Spanned<Vec<Exactly<4>>>>,
     maze: Option<Spanned<MazeToml>>,
     span: Range<usize>,
 ) -> Result<Walls, SceneFileError> {
     match (walls, maze) {
         (Some(walls), None) => {
-            let good = |[x0, y0, x1, y1]: &[f64; 4]| {
+            let good = |Exactly([x0, y0, x1, y1]): &Exactly<4>| {
                 x0 < x1 && y0 < y1 && is_in(&[*x0, *y0, *x1, *y1], MAX_COORDINATE)
             };
             let reason = "walls: expected [left, below, right, above] with left < right and below < above, up to 10000";
             let few = walls.get_ref().len() <= MAX_WALLS;
             place.expect(few, walls.span(), "walls: expected at most 2000 rectangles")?;
             place.expect(walls.get_ref().iter().all(good), walls.span(), reason)?;
-            let bounds = |[x0, y0, x1, y1]: &[f64; 4]| Bounds {
+            let bounds = |Exactly([x0, y0, x1, y1]): &Exactly<4>| Bounds {
                 low: Vector2::new(*x0, *y0),
                 high: Vector2::new(*x1, *y1),
             };
-            Ok(Walls::Rectangles(walls.get_ref().iter().map(bounds).collect()))
+            let rectangles: Vec<Bounds> = walls.get_ref().iter().map(bounds).collect();
+            let [n_x, n_y] = [0, 1].map(|axis| {
+                let sides = rectangles.iter().flat_map(|wall| [wall.low[axis], wall.high[axis]]);
+                // Bits of equal numbers are equal, but for the sign of 0.
+                sides.map(|side| (side + 0.0).to_bits()).collect::<BTreeSet<u64>>().len()
+            });
+            let reason = format!(
+                "walls: {n_x} x {n_y} distinct sides: expected at most {MAX_CELLS} rectangles between them"
+            );
+            place.expect(n_x * n_y <= MAX_CELLS, walls.span(), &reason)?;
+            Ok(Walls::Rectangles(rectangles))
         }
         (None, Some(maze)) => {
             let MazeToml { width, height, seed } = *maze.get_ref();
@@ -257,9 +282,9 @@ fn ball_from(
         spec.rolling = BallSpec::ROLLING_SPHERE;
     }
     spec.checked().map_err(|error| place.error(span(), &error.to_string()))?;
-    let velocity = given.velocity.unwrap_or_default();
+    let velocity = given.velocity.map_or([0.0; 2], |Exactly(velocity)| velocity);
     place.expect(is_in(&velocity, MAX_SPEED), span(), "velocity: expected at most 10000 units/s")?;
-    let Some(position) = given.position else {
+    let Some(Exactly(position)) = given.position else {
         let reason = "a ball with a velocity needs a position";
         place.expect(given.velocity.is_none(), span(), reason)?;
         return Ok((None, spec));
@@ -274,8 +299,10 @@ fn gravity_from(place: &Text<'_>, gravity: &Spanned<GravityToml>) -> Result<Grav
     let positive = |value: f64, reason| place.expect(0.0 < value && value < 1.0e3, gravity.span(), reason);
     match *gravity.get_ref() {
         GravityToml::Flat => Ok(Gravity::Flat),
-        GravityToml::Constant { tilt_deg } => angles(&tilt_deg).map(|()| Gravity::Constant { tilt_deg }),
-        GravityToml::Sinusoidal { amplitude_deg, frequency_hz } => {
+        GravityToml::Constant { tilt_deg: Exactly(tilt_deg) } => {
+            angles(&tilt_deg).map(|()| Gravity::Constant { tilt_deg })
+        }
+        GravityToml::Sinusoidal { amplitude_deg: Exactly(amplitude_deg), frequency_hz } => {
             angles(&amplitude_deg)?;
             positive(frequency_hz, "frequency_hz: expected more than 0 and less than 1000")?;
             Ok(Gravity::Sinusoidal { amplitude_deg, frequency_hz })
@@ -300,7 +327,7 @@ fn truth_from(
             place.expect(is_in(&all, MAX_COORDINATE), span, "truth.room: expected at most 10000 units")?;
             Ok(Truth::Motion(Motion::Room { low: [left, below], high: [right, above] }))
         }
-        TruthToml::Corner { point } => {
+        TruthToml::Corner { point: Exactly(point) } => {
             let reason = "truth.corner holds without gravity only";
             place.expect(gravity == Gravity::Flat, span.clone(), reason)?;
             place.expect(
@@ -310,7 +337,7 @@ fn truth_from(
             )?;
             Ok(Truth::Motion(Motion::Corner { point: point.into() }))
         }
-        TruthToml::Around { block: [left, below, right, above] } => {
+        TruthToml::Around { block: Exactly([left, below, right, above]) } => {
             let reason = "truth.around holds on a board held still only";
             place.expect(gravity.is_constant(), span.clone(), reason)?;
             let all = [left, below, right, above];
@@ -319,7 +346,7 @@ fn truth_from(
             let block = Bounds { low: Vector2::new(left, below), high: Vector2::new(right, above) };
             Ok(Truth::Motion(Motion::Around { block }))
         }
-        TruthToml::Rest { place: at } => {
+        TruthToml::Rest { place: Exactly(at) } => {
             let reason = "truth.rest holds on a board held still only";
             place.expect(gravity.is_constant(), span.clone(), reason)?;
             place.expect(is_in(&at, MAX_COORDINATE), span, "truth.rest: expected at most 10000 units")?;
@@ -406,7 +433,12 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
             ("rolls = true", "rools = true", 8, "rools"),
             ("about =", "abuot =", 4, "abuot"),
             ("frequency_hz = 0.5", "frequency_hz = -1", 9, "frequency_hz"),
-            ("amplitude_deg = [5, 0]", "amplitude_deg = [5]", 9, "array"),
+            ("amplitude_deg = [5, 0]", "amplitude_deg = [5]", 9, "2 numbers"),
+            // F22: of a list that is too long the end was cut off without a word.
+            ("amplitude_deg = [5, 0]", "amplitude_deg = [5, 0, 1]", 9, "2 numbers"),
+            ("[0, 0, 1, 5]", "[0, 0, 1, 5, 77]", 7, "4 numbers"),
+            ("position = [2, 2]", "position = [2, 2, 55]", 8, "2 numbers"),
+            ("velocity = [1, 0]", "velocity = [1, 0, 0]", 8, "2 numbers"),
             ("duration_s = 2.5", "duration_s = \"long\"", 5, "duration_s|string"),
             ("duration_s = 2.5", "duration_s = inf", 5, "duration_s"),
             ("[0, 0, 1, 5]", "[1, 0, 0, 5]", 7, "walls"),
@@ -420,5 +452,22 @@ gravity.random = { seed = 1, hold_s = 0.5, max_deg = 8 }
             assert!(reason.split('|').any(|reason| error.reason.contains(reason)), "{to}: {error}");
         }
         assert!(read("").is_err());
+    }
+
+    #[test]
+    fn r9_walls_that_cut_the_plan_into_too_many_cells_are_refused() {
+        let walls = |n: usize| {
+            let wall = |k: usize| format!("[{k}.25, {k}.5, {}.0, {}.75]", k + 3, k + 3);
+            let walls: Vec<String> = (0..n).map(wall).collect();
+            GOOD.replace("[[0, 0, 1, 5], [3.0, 0, 4, 5]]", &format!("[{}]", walls.join(", ")))
+                .replace("[2, 2]", "[-5, -5]")
+        };
+        assert!(read(&walls(128)).is_ok());
+        let error = read(&walls(129)).unwrap_err();
+        assert_eq!(error.line, 7);
+        assert_eq!(
+            error.reason,
+            "walls: 258 x 258 distinct sides: expected at most 65536 rectangles between them"
+        );
     }
 }
