@@ -29,6 +29,9 @@ const MAX_DEPTH_RATIO: f64 = 2.0;
 /// see.
 const TRIED_RADII: RangeInclusive<u8> = 2..=48;
 
+/// By how much a larger ball must pass too (corridors): through a gate in a flat wall that a ball fits to a hair nobody gets.
+const PLAY: f64 = 0.005;
+
 /// Part of the plan that low walls may bring into doubt before they are left out.
 const MAX_ADDED_DOUBT: f64 = 0.01;
 
@@ -357,7 +360,7 @@ fn with_low_walls(
 /// smaller one does too, so it is found by bisection.
 fn largest_passing<T>(asked: f64, find: &impl Fn(f64) -> Result<(T, Way), WayError>) -> Option<f64> {
     let radius = |hundredths: u8| f64::from(hundredths) / 100.0;
-    let passes = |hundredths: u8| find(radius(hundredths)).is_ok_and(|(_, way)| way.solvable);
+    let passes = |hundredths: u8| find(radius(hundredths) + PLAY).is_ok_and(|(_, way)| way.solvable);
     let mut tried = TRIED_RADII.filter(|hundredths| radius(*hundredths) < asked);
     let (mut low, mut high) = (*TRIED_RADII.start(), tried.next_back()?);
     if !passes(low) {

@@ -54,7 +54,7 @@ pub struct Maze {
     pub wall_height: f64,
     /// The ball this maze is played with.
     pub ball_radius: Radius,
-    /// The largest ball, in corridors and steps of 0.01, for which a path leads from start to goal, where there is none for the one
+    /// The largest ball, in corridors and steps of 0.01 and with 0.01 to spare, for which a path leads from start to goal, where there is none for the one
     /// that was asked for, or for the usual one. The maze is played with it unless another one was asked for.
     pub passing_radius: Option<Radius>,
     /// Where the ball's centre starts.

@@ -20,6 +20,11 @@ impl Case {
         Blocks::of_layout(&self.layout).is_wall(x, 2 * self.layout.height() - y)
     }
 
+    /// Without loops: in a hall nothing shows where cells are, unless corners are drawn.
+    fn is_perfect(&self) -> bool {
+        self.layout.n_passages() + 1 == self.layout.width() * self.layout.height()
+    }
+
     fn size(&self) -> [usize; 2] {
         [self.layout.width(), self.layout.height()]
     }
@@ -283,7 +288,7 @@ fn numbers(case: &Case, bits: [u8; 4], are_walls: bool, style: usize) -> String 
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 600, max_global_rejects: 1_000_000, ..ProptestConfig::default() })]
 
     #[test]
     fn f11_blocks_of_any_signs(case in case(), signs in select(&SIGNS[..]), form in select(&FORMS[..]), dress in 0..12_usize) {
@@ -310,7 +315,7 @@ proptest! {
         dress in 0..12_usize,
     ) {
         // Without corners, a narrow maze with few walls has columns that nothing shows.
-        prop_assume!(corner != ' ' || 5 <= case.layout.width());
+        prop_assume!(corner != ' ' || (5 <= case.layout.width() && case.is_perfect()));
         let strokes = Strokes { corner, level: '-', upright: '|', step, all_corners };
         let text = drawn(&case, strokes);
         let dress = if (2..5).contains(&dress) { 8 } else { dress };
@@ -319,6 +324,7 @@ proptest! {
 
     #[test]
     fn f11_underscores(case in case()) {
+        prop_assume!(case.is_perfect());
         let case = Case { ends: None, ..case };
         let text = underscored(&case);
         expect_same(&read(text.as_bytes()), &case, &text);
@@ -326,6 +332,7 @@ proptest! {
 
     #[test]
     fn f11_box_characters(case in case(), step in [0..4_usize, 0..3], heavy in any::<bool>()) {
+        prop_assume!(case.is_perfect());
         let case = Case { ends: None, ..case };
         let text = boxes(&case, step[0], step[1]);
         let text = if heavy { text.replace('─', "━").replace('│', "┃").replace('┌', "┏").replace('┼', "╋") } else { text };

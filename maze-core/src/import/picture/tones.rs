@@ -269,18 +269,20 @@ fn without_noise(wall: &mut Mask) {
     }
     let most = (thick / 2) * (thick / 2);
     let mut seen = vec![false; wall.pixels.len()];
-    let (mut region, mut open) = (Vec::new(), Vec::new());
+    let (mut region, mut open): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     for first in 0..seen.len() {
         if std::mem::replace(&mut seen[first], true) {
             continue;
         }
         let value = wall.pixels[first];
         region.clear();
-        open.push(first);
+        // A picture has far fewer pixels than 2^32.
+        open.push(u32::try_from(first).unwrap_or(u32::MAX));
         while let Some(pixel) = open.pop() {
             if region.len() <= most {
                 region.push(pixel);
             }
+            let pixel = pixel as usize;
             let (x, y) = (pixel % wall.width, pixel / wall.width);
             let around = [
                 (0 < x).then(|| pixel - 1),
@@ -290,13 +292,13 @@ fn without_noise(wall: &mut Mask) {
             ];
             for beside in around.into_iter().flatten() {
                 if wall.pixels[beside] == value && !std::mem::replace(&mut seen[beside], true) {
-                    open.push(beside);
+                    open.extend(u32::try_from(beside));
                 }
             }
         }
         if region.len() <= most {
             for pixel in &region {
-                wall.pixels[*pixel] = !value;
+                wall.pixels[*pixel as usize] = !value;
             }
         }
     }
@@ -320,17 +322,20 @@ fn expect_upright(wall: &Mask) -> Result<(), PictureError> {
         (x + 1 < wall.width && wall.at(x + 1, y) != here)
             || (y + 1 < wall.height && wall.at(x, y + 1) != here)
     };
-    let pixels = (0..wall.height).flat_map(|y| (0..wall.width).map(move |x| (x, y)));
-    let edges: Vec<[f64; 2]> =
-        pixels.filter(|(x, y)| is_edge(*x, *y)).map(|(x, y)| [to_f64(x), to_f64(y)]).collect();
-    let step = edges.len() / SAMPLED_EDGES + 1;
+    let all = || {
+        let pixels = (0..wall.height).flat_map(|y| (0..wall.width).map(move |x| (x, y)));
+        pixels.filter(|(x, y)| is_edge(*x, *y))
+    };
+    // Counted first: a picture may be nothing but edges.
+    let step = all().count() / SAMPLED_EDGES + 1;
+    let edges: Vec<[f64; 2]> = all().step_by(step).map(|(x, y)| [to_f64(x), to_f64(y)]).collect();
     let reach = wall.width + wall.height + 2;
     let mut counts = vec![0_u32; 2 * reach];
     let mut lines_up = |slope: f64| {
         let mut score = 0.0;
         for axis in [0, 1] {
             counts.fill(0);
-            for [x, y] in edges.iter().step_by(step) {
+            for [x, y] in &edges {
                 let offset = if axis == 0 { y - slope * x } else { x + slope * y };
                 // At most the sum of both sides away from 0.
                 #[allow(

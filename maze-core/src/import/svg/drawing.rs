@@ -98,14 +98,14 @@ pub(super) struct Drawing {
 }
 
 /// Points joined by straight strokes.
-#[derive(Clone, Debug)]
-pub(super) struct Chain {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chain<'a> {
     pub(super) source: Source,
     /// Chains of one colour have one number.
     pub(super) stroke: usize,
     /// Whether that is a colour: marks and solutions are where walls are grey.
     pub(super) is_coloured: bool,
-    pub(super) points: Vec<[f64; 2]>,
+    pub(super) points: &'a [[f64; 2]],
     /// Of the file, counted from 1.
     pub(super) line: usize,
 }
@@ -145,7 +145,7 @@ impl Drawing {
     ///
     /// # Errors
     /// A curved stroke that is no mark in a colour.
-    pub(super) fn chains(&self) -> Result<Vec<Chain>, SvgError> {
+    pub(super) fn chains(&self) -> Result<Vec<Chain<'_>>, SvgError> {
         let mut colours: Vec<Rgb> = Vec::new();
         let mut chains = Vec::new();
         for shape in &self.shapes {
@@ -165,7 +165,7 @@ impl Drawing {
                         source: shape.source,
                         stroke,
                         is_coloured: is_coloured(colour),
-                        points: points.clone(),
+                        points,
                         line: shape.line,
                     }));
                 }

@@ -22,7 +22,7 @@ const LEAN: f64 = 0.01;
 const MAX_DIVISOR: usize = 4;
 
 /// The layout that these strokes draw.
-pub(super) fn maze(chains: &[Chain]) -> Result<SvgMaze, SvgError> {
+pub(super) fn maze(chains: &[Chain<'_>]) -> Result<SvgMaze, SvgError> {
     let reference = reference(chains)?;
     let is_reference = |chain: &&Chain| (chain.source, chain.stroke) == reference;
     refuse_slanted(chains.iter().filter(is_reference))?;
@@ -52,7 +52,7 @@ pub(super) fn maze(chains: &[Chain]) -> Result<SvgMaze, SvgError> {
 }
 
 /// Strokes without a length at corners of cells.
-fn posts(chains: &[Chain], grid: &Grid) -> Vec<[usize; 2]> {
+fn posts(chains: &[Chain<'_>], grid: &Grid) -> Vec<[usize; 2]> {
     let dots = chains.iter().filter(|chain| 1 < chain.points.len() && strokes(chain).next().is_none());
     let corner = |chain: &Chain| {
         let point = *chain.points.first()?;
@@ -64,7 +64,7 @@ fn posts(chains: &[Chain], grid: &Grid) -> Vec<[usize; 2]> {
 
 /// What the walls are drawn with: black or grey if there is any, lines if there are any, else paths, else polylines, of the
 /// colour of the first one.
-fn reference(chains: &[Chain]) -> Result<(Source, usize), SvgError> {
+fn reference(chains: &[Chain<'_>]) -> Result<(Source, usize), SvgError> {
     let first = chains
         .iter()
         .filter(|chain| 1 < chain.points.len())
@@ -73,7 +73,7 @@ fn reference(chains: &[Chain]) -> Result<(Source, usize), SvgError> {
 }
 
 /// The strokes of a chain that have a length.
-fn strokes(chain: &Chain) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
+fn strokes<'a>(chain: &Chain<'a>) -> impl Iterator<Item = [[f64; 2]; 2]> + 'a {
     chain.points.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[from, to]| from != to)
 }
 
@@ -87,7 +87,7 @@ fn axis([from, to]: [[f64; 2]; 2]) -> Option<usize> {
     }
 }
 
-fn refuse_slanted<'a>(chains: impl Iterator<Item = &'a Chain>) -> Result<(), SvgError> {
+fn refuse_slanted<'a>(chains: impl Iterator<Item = &'a Chain<'a>>) -> Result<(), SvgError> {
     let (mut n_walls, mut n_slanted, mut first) = (0, 0, None);
     for chain in chains {
         for stroke in strokes(chain) {
@@ -109,7 +109,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn find<'a>(chains: impl Iterator<Item = &'a Chain>) -> Result<Self, SvgError> {
+    fn find<'a>(chains: impl Iterator<Item = &'a Chain<'a>>) -> Result<Self, SvgError> {
         let mut values: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
         let mut first = 0;
         for chain in chains {
@@ -298,7 +298,7 @@ fn checked_solution(chain: &Chain, grid: &Grid, layout: &Layout) -> Result<Vec<u
     let through_wall = |[x, y]: [f64; 2]| SvgError::SolutionThroughWall { line: chain.line, x, y };
     let (width, height) = (layout.width(), layout.height());
     let mut cells: Vec<usize> = Vec::new();
-    for &point in &chain.points {
+    for &point in chain.points {
         let cell = cell_of_point(grid, layout, point).ok_or_else(|| through_wall(point))?;
         let Some(&last) = cells.last() else {
             cells.push(cell);
