@@ -1,8 +1,10 @@
 //! What each fuzz target does with any bytes. `maze-core/tests/any_bytes.rs` does the same in `cargo test`.
 
 use maze_core::import::picture::WallTone;
+use maze_core::import::svg::SvgPlan;
 use maze_core::import::text::TextOptions;
-use maze_core::{AssembleOptions, Blocks, Layout, Maze, UpAxis, export, extrude, import};
+use maze_core::replay::Recording;
+use maze_core::{AssembleOptions, Blocks, Layout, Maze, UpAxis, export, extrude, import, printable};
 
 /// An OBJ file: polygons, and the maze they make.
 pub(crate) fn obj(bytes: &[u8]) {
@@ -14,6 +16,17 @@ pub(crate) fn obj(bytes: &[u8]) {
 /// An SVG: written and read again it is the same maze, or the same in larger cells where no wall is one cell long or one
 /// cell from the next.
 pub(crate) fn svg(bytes: &[u8]) {
+    if let Ok(plan) = import::svg::read(bytes) {
+        assert!(!plan.found().contains('\n'));
+        // Larger ones would leave no time to try many.
+        let is_small = match &plan {
+            SvgPlan::Cells(cells) => cells.layout.width() * cells.layout.height() < 1000,
+            SvgPlan::Painted { blocks, .. } => blocks.width() * blocks.height() < 4000,
+        };
+        if is_small {
+            let _ = plan.maze(&AssembleOptions::default());
+        }
+    }
     let Ok(maze) = import::svg::read_cells(bytes) else { return };
     let text = export::svg::write(&maze.layout, maze.solution.as_deref(), "");
     let again = import::svg::read_cells(text.as_bytes());
@@ -99,6 +112,18 @@ pub(crate) fn picture(bytes: &[u8]) {
         if n_x * n_y < 4000 {
             let _ = picture.maze(&AssembleOptions::default());
         }
+    }
+}
+
+/// A recording: written and read again it is the same, and nothing of it harms a terminal.
+pub(crate) fn recording(bytes: &[u8]) {
+    match Recording::from_bytes(bytes) {
+        Ok(recording) => {
+            assert_eq!(recording.to_bytes(), bytes);
+            let shown = printable(&recording.source);
+            assert!(!shown.chars().any(char::is_control) && shown.len() < 20_000);
+        }
+        Err(error) => assert!(!error.to_string().contains('\n')),
     }
 }
 

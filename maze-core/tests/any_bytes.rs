@@ -101,6 +101,7 @@ proptest! {
         bodies::svg(&bytes);
         bodies::text(&bytes);
         bodies::picture(&bytes);
+        bodies::recording(&bytes);
     }
 
     #[test]
