@@ -17,14 +17,13 @@ use crate::clock::Clock;
 use crate::command::play::Setup;
 use crate::demo::Demo;
 use crate::failure::Failure;
-use crate::files;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
 use crate::game::{Game, to_f32};
 use crate::input::{Action, Keyboard, TiltControl};
-use crate::keeper::Keeper;
+use crate::keeper::{Keeper, KeptFrames};
 use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
-use crate::rescue::{self, Kept, OpenWindow, Shared};
+use crate::rescue::{self, OpenWindow};
 use crate::slowness::Slowness;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};
@@ -103,7 +102,7 @@ pub(crate) struct App {
     drawn_by: Option<(String, Quality, [u32; 2])>,
     frame_log: FrameLog,
     /// The frames once more, to be written when the program is ended from outside.
-    kept_frames: Option<(Shared<FrameLog>, Kept)>,
+    kept_frames: Option<KeptFrames>,
     shows_frames: bool,
     slowness: Slowness,
     /// The picture's quality is somebody's choice, and stays.
@@ -156,7 +155,7 @@ impl App {
             graphics: None,
             drawn_by: None,
             frame_log: FrameLog::new(options.keep_s),
-            kept_frames: setup.csv.map(keep_frames),
+            kept_frames: setup.csv.map(KeptFrames::new),
             shows_frames: false,
             slowness: Slowness::default(),
             quality_is_chosen: setup.quality.is_chosen(),
@@ -365,7 +364,8 @@ impl App {
     fn frame(&mut self) -> Result<(), Failure> {
         let watch = Stopwatch::start();
         let now = Instant::now();
-        let elapsed = now - self.last_frame;
+        // The time for which the program was stopped is not played.
+        let elapsed = if rescue::was_stopped() { Duration::ZERO } else { now - self.last_frame };
         self.last_frame = now;
         let Some(graphics) = &self.graphics else { return Ok(()) };
         let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
@@ -414,8 +414,8 @@ impl App {
         match graphics.draw(&scene, &hud, number)? {
             Drawn::Shown { encode, present } => {
                 self.frame_log.push(Parts { simulate, encode: prepare + encode, present });
-                if let Some((kept, _)) = &self.kept_frames {
-                    self.frame_log.copy_last_to(&mut rescue::lock(kept));
+                if let Some(kept) = &self.kept_frames {
+                    kept.add(&self.frame_log);
                 }
                 graphics.tell_times(&mut self.frame_log);
                 if self.first_frame.is_none() {
@@ -521,12 +521,4 @@ impl ApplicationHandler for App {
         }
         event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));
     }
-}
-
-/// Frames that are written to a file when the program is ended from outside.
-fn keep_frames(csv: PathBuf) -> (Shared<FrameLog>, Kept) {
-    let log = Shared::new(FrameLog::new(f64::MAX).into());
-    let kept = Shared::clone(&log);
-    let save = move || files::write_whole(&csv, rescue::lock(&kept).csv().as_bytes());
-    (log, rescue::keep(save))
 }

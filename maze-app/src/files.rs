@@ -8,8 +8,8 @@ use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// Largest file that is read: far above any maze (a million faces are 60 MB).
-const MAX_BYTES: u64 = 1 << 28;
+/// Largest file that is read: an .obj of 1024 x 1024 cells has 300 MB.
+const MAX_BYTES: u64 = 1 << 29;
 
 /// How much longer than it says a file may be, that grows while it is read.
 const MAX_GROWTH: u64 = 1 << 20;
@@ -142,17 +142,17 @@ impl Drop for Temporary {
     }
 }
 
-/// The file that a path means: what a link leads to, so that the link stays one.
+/// Most links that lead to a file, as systems have it.
+const MAX_LINKS: usize = 40;
+
+/// The file that a path means: what a link leads to, which need not be there, so that the link stays one.
 fn target_of(path: &Path) -> PathBuf {
-    match fs::symlink_metadata(path) {
-        Ok(metadata) if metadata.file_type().is_symlink() => {
-            let whole = fs::canonicalize(path);
-            whole
-                .or_else(|_| fs::read_link(path).map(|target| directory_of(path).join(target)))
-                .unwrap_or_else(|_| path.to_path_buf())
-        }
-        _ => path.to_path_buf(),
+    let mut target = path.to_path_buf();
+    for _ in 0..MAX_LINKS {
+        let Ok(next) = fs::read_link(&target) else { break };
+        target = directory_of(&target).join(next);
     }
+    target
 }
 
 /// A file that a command reads or writes, and what a message calls it.
@@ -190,6 +190,10 @@ pub(crate) fn expect_replaceable(path: &Path) -> Result<(), Failure> {
     match fs::metadata(path) {
         Ok(metadata) if !metadata.is_file() => {
             Err(Failure::in_file(path, "cannot write: is no ordinary file"))
+        }
+        // Such as links that lead round in a circle.
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            Err(Failure::in_file(path, format!("cannot write: {}", plain(&error))))
         }
         _ => Ok(()),
     }

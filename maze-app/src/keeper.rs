@@ -1,7 +1,8 @@
-//! A run that is kept while it is played, so that it is saved when the program is ended from outside.
+//! A run and its frames that are kept while it is played, so that they are saved when the program is ended from outside.
 
 use crate::failure::Failure;
 use crate::files;
+use crate::frame_log::FrameLog;
 use crate::game::Game;
 use crate::rescue::{self, Kept, Shared, lock};
 use crate::source::Source;
@@ -48,4 +49,25 @@ fn save(path: &Path, recording: &Recording) -> Result<(), Failure> {
         return Ok(());
     }
     files::write_whole(path, &recording.to_bytes())
+}
+
+/// Keeps the frames of a log.
+pub(crate) struct KeptFrames {
+    frames: Shared<FrameLog>,
+    _kept: Kept,
+}
+
+impl KeptFrames {
+    /// Written to that file when they have to be.
+    pub(crate) fn new(csv: PathBuf) -> Self {
+        let frames = Arc::new(Mutex::new(FrameLog::new(f64::MAX)));
+        let kept = Arc::clone(&frames);
+        let save = move || files::write_whole(&csv, lock(&kept).csv().as_bytes());
+        Self { frames, _kept: rescue::keep(save) }
+    }
+
+    /// The last frame of the log.
+    pub(crate) fn add(&self, log: &FrameLog) {
+        log.copy_last_to(&mut lock(&self.frames));
+    }
 }

@@ -29,7 +29,7 @@ mod state_log;
 mod ui;
 
 use clap::error::{ContextKind, ContextValue};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use failure::Failure;
 use std::io::Write;
 use std::process::ExitCode;
@@ -104,18 +104,23 @@ fn finish(result: Result<(), Failure>) -> ExitCode {
     }
 }
 
+/// What is wrong with a word that stands where none can: flags and a file without a subcommand take no other word.
+fn misplaced(word: &str) -> String {
+    let cli = Cli::command();
+    // Among the words before, one that follows a flag may be the flag's value: only a subcommand's name is certain.
+    match std::env::args().skip(2).find(|word| cli.find_subcommand(word).is_some()) {
+        Some(name) => format!("the subcommand {name} must come first, before every flag and file"),
+        None => format!("found a second file {word}: expected one maze"),
+    }
+}
+
 /// Help and version go to stdout as they are; what is wrong becomes one line.
 fn usage(error: &clap::Error) -> ExitCode {
     if !error.use_stderr() {
         return finish(files::print(&error.to_string()));
     }
-    if let Some(ContextValue::String(second)) = error.get(ContextKind::InvalidSubcommand)
-        && let Some(first) = std::env::args().skip(1).find(|word| !word.starts_with('-') && word != second)
-    {
-        // Two mazes, of which one is no subcommand either.
-        let reason =
-            format!("one maze at a time: found {second} after {first}, expected a subcommand or one file");
-        return finish(Err(Failure::bad_input(format!("{reason} (see --help)"))));
+    if let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) {
+        return finish(Err(Failure::bad_input(format!("{} (see --help)", misplaced(word)))));
     }
     let text = error.to_string();
     let reason = text.split("\n\n").next().unwrap_or_default();

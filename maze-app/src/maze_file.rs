@@ -5,7 +5,7 @@ use crate::progress::Progress;
 use crate::{files, picture};
 use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
-use maze_core::{AssembleOptions, Layout, Maze, Stage, export, extrude, import};
+use maze_core::{AssembleOptions, Layout, MAX_GRID_CELLS, Maze, Stage, export, extrude, import};
 use std::path::Path;
 
 /// What a file holds.
@@ -135,9 +135,17 @@ fn svg(bytes: &[u8], options: &AssembleOptions) -> Result<Loaded, String> {
     Ok(Loaded { maze, found: Some(svg.found()) })
 }
 
-/// Checks an output's name before the work is done for it; `solution` must be possible there.
-pub(crate) fn expect_writable(path: &Path, solution: bool) -> Result<(), Failure> {
+/// Checks before the work that a file of that name can hold a maze of so many cells, and be read again; `solution` must be
+/// possible there.
+pub(crate) fn expect_writable(path: &Path, n_cells: usize, solution: bool) -> Result<(), Failure> {
     let kind = Kind::of_name(path, &KINDS[..3])?;
+    if kind != Kind::Obj && MAX_GRID_CELLS < n_cells {
+        let reason = format!(
+            "{n_cells} cells: expected at most {MAX_GRID_CELLS} in a .{}, as 256x256; larger mazes are written as .obj",
+            kind.ending()
+        );
+        return Err(Failure::in_file(path, reason));
+    }
     if solution && kind != Kind::Svg {
         return Err(Failure::in_file(path, "--solution is drawn in .svg files only"));
     }

@@ -62,18 +62,22 @@ pub(crate) fn forget(path: &Path) {
     lock(&TEMPORARY).retain(|known| known != path);
 }
 
-/// Saves what there is and removes what is half-written; a failure is told.
-fn save_all() {
+/// Saves what there is and removes what is half-written; a failure is told. While the guard lives no other thread makes a
+/// temporary file or notices that its own is gone.
+#[must_use = "the process ends while the guard lives"]
+fn save_all() -> MutexGuard<'static, Vec<PathBuf>> {
     let saves = lock(&SAVES).clone();
     for save in saves {
         if let Err(failure) = save() {
             files::note(&failure.to_string());
         }
     }
-    for path in lock(&TEMPORARY).drain(..) {
+    let mut temporary = lock(&TEMPORARY);
+    for path in temporary.drain(..) {
         // Gone is gone.
         let _ = std::fs::remove_file(path);
     }
+    temporary
 }
 
 /// Waits for signals that end the program, on a thread of its own. Without threads they end it as they always do.
@@ -88,7 +92,7 @@ pub(crate) fn watch_signals() {
     let wait = move || {
         let Ok(mut signals) = Signals::new(wanted) else { return };
         if let Some(signal) = signals.forever().next() {
-            save_all();
+            let _saved = save_all();
             // As shells tell a process that a signal has ended.
             low_level::exit(128 + signal);
         }
@@ -99,6 +103,26 @@ pub(crate) fn watch_signals() {
 
 #[cfg(not(unix))]
 pub(crate) fn watch_signals() {}
+
+/// Set when the program goes on after it was stopped, as by Ctrl+Z.
+#[cfg(unix)]
+static CONTINUED: std::sync::LazyLock<Arc<AtomicBool>> = std::sync::LazyLock::new(|| {
+    let continued = Arc::new(AtomicBool::new(false));
+    // Where it cannot be told, the time in between is forgotten but for a few ticks.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGCONT, Arc::clone(&continued));
+    continued
+});
+
+/// Whether the program was stopped since this was asked last.
+#[cfg(unix)]
+pub(crate) fn was_stopped() -> bool {
+    CONTINUED.swap(false, Ordering::SeqCst)
+}
+
+#[cfg(not(unix))]
+pub(crate) fn was_stopped() -> bool {
+    false
+}
 
 /// Which signals the program was started to ignore, as `nohup` does.
 #[cfg(unix)]
@@ -139,7 +163,7 @@ extern "C" fn on_exit() {
 /// Saves what there is and ends the program with one line and exit status 2, whatever its other threads wait for.
 fn end(reason: &str) {
     HAS_WINDOW.store(false, Ordering::SeqCst);
-    save_all();
+    let _saved = save_all();
     let _ = writeln!(std::io::stderr(), "maze-app: {}", printable(reason));
     #[cfg(unix)]
     signal_hook::low_level::exit(2);
@@ -166,11 +190,28 @@ pub(crate) fn end_after(time: Duration) {
     let wait = move || {
         let is_silent = || lock(&BEAT).is_none_or(|beat| SILENCE <= beat.elapsed());
         while started.elapsed() < time || !is_silent() {
+            let asleep = Instant::now();
             std::thread::sleep(EVERY);
+            if SILENCE / 2 < asleep.elapsed() {
+                // This program was stopped itself.
+                beat();
+            }
         }
         if HAS_WINDOW.load(Ordering::SeqCst) {
             end("the window system does not answer: ended without it");
         }
     };
     let _ = std::thread::Builder::new().name("end".to_owned()).spawn(wait);
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn r18_a_program_that_goes_on_after_a_stop_is_told_once() {
+        assert!(!was_stopped());
+        signal_hook::low_level::raise(signal_hook::consts::SIGCONT).unwrap();
+        assert_eq!([was_stopped(), was_stopped()], [true, false]);
+    }
 }

@@ -9,7 +9,7 @@ use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::replay::MAX_NAME;
-use maze_core::{AssembleOptions, Maze, Radius, UpAxis, extrude};
+use maze_core::{AssembleOptions, MAX_GRID_CELLS, Maze, Radius, UpAxis, extrude};
 use std::path::{Path, PathBuf};
 
 /// How to read a maze file.
@@ -231,6 +231,15 @@ impl Source {
         if MAX_NAME < n_bytes {
             let reason = format!("{n_bytes} bytes to name this maze: a recording takes at most {MAX_NAME}");
             return Err(Failure::bad_input(reason));
+        }
+        if let Kind::Random(recipe) = &self.kind {
+            let n_cells = recipe.width.saturating_mul(recipe.height);
+            if MAX_GRID_CELLS < n_cells {
+                // A recording is small, and must not ask for much.
+                let reason =
+                    format!("a random maze of {n_cells} cells: a recording takes at most {MAX_GRID_CELLS}");
+                return Err(Failure::bad_input(reason));
+            }
         }
         Ok(())
     }

@@ -8,12 +8,16 @@ use crate::polygons::{PolygonMesh, UpAxis};
 use nalgebra::Vector2;
 use std::collections::BTreeSet;
 
-/// Most rectangles that the lines along the blocks' edges may make: a maze of 200 x 200 cells has 401 x 401.
-const MAX_PIECES: usize = 1 << 18;
+/// Most cells of a generated maze that a text, an SVG, a picture or a recording may ask for, such as 256 x 256: a few bytes are
+/// enough to ask, and 64 MiB are enough to answer.
+pub const MAX_GRID_CELLS: usize = 1 << 16;
 
-/// Most faces of walls, each as long as can be: a maze of 200 x 200 cells has some 90 thousand. A few bytes of a picture can
-/// ask for any number of them, and it takes some 300 bytes each to find the way between them.
-const MAX_FACES: usize = 160_000;
+/// Most rectangles that the lines along the blocks' edges may make: [`MAX_GRID_CELLS`] as 1024 x 64 cells have 2050 x 130.
+const MAX_PIECES: usize = 2050 * 130;
+
+/// Most faces of walls, each as long as can be: [`MAX_GRID_CELLS`] have 130 to 165 thousand, by the algorithm. A few bytes of a
+/// picture can ask for any number of them, and it takes some 300 bytes each to find the way between them.
+const MAX_FACES: usize = 180_000;
 
 /// Where columns and rows of blocks begin.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,8 +18,8 @@ const NOISE_OF_CORRIDOR: f64 = 1.0 / 16.0;
 /// A wall nearer to the rim of the plan than this part of a corridor is the rim.
 const RIM_OF_CORRIDOR: f64 = 1.0 / 8.0;
 
-/// Most rectangles of any plan: 2048 x 2048, a maze of 1000 x 1000 cells.
-const MAX_CELLS: usize = 1 << 22;
+/// Most rectangles of any plan: a maze of 1024 x 1024 cells has 2050 x 2050 distinct coordinates.
+const MAX_CELLS: usize = 2050 * 2050;
 /// Most rectangles of the plan of a few faces, and how many more for each end of a face: a maze of n x n cells has some 4 n²
 /// rectangles and 3 n² ends. A rectangle takes some 60 bytes to find the way through, so no small file takes much memory.
 const MAX_CELLS_ANYWAY: usize = 1 << 19;

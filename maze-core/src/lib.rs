@@ -73,7 +73,7 @@ mod winding;
 pub use assemble::{AssembleError, AssembleOptions, Stage};
 pub use autopilot::Autopilot;
 pub use ball::{Ball, BallSpec, OutOfRange, Radius};
-pub use blocks::{Blocks, BlocksError};
+pub use blocks::{Blocks, BlocksError, MAX_GRID_CELLS};
 pub use draft::SectionError;
 pub use engine::{
     BallState, Contact, Contacts, Continuous, Engine, Hit, Observer, Published, RolledArc, Tick,

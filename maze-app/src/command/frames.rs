@@ -10,6 +10,7 @@ use crate::files;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
 use crate::game::{Game, to_f32};
 use crate::input::Keyboard;
+use crate::keeper::KeptFrames;
 use crate::overlay::{Layers, Notes};
 use crate::plot;
 use crate::quality::QualityChoice;
@@ -211,6 +212,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     let labels = Labels::new(&source, game.maze());
     let mut clock = Clock::new(game.tick_s());
     let mut log = FrameLog::new(f64::MAX);
+    let kept = arguments.csv.clone().map(KeptFrames::new);
     let (mut ahead, mut first_frame) = (VecDeque::new(), None::<Instant>);
     let mut last = Instant::now();
     // The first frame takes as long as the driver needs to make the shaders.
@@ -260,6 +262,9 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
         }
         first_frame.get_or_insert_with(Instant::now);
         log.push(Parts { simulate, encode, present: watch.ms() });
+        if let Some(kept) = &kept {
+            kept.add(&log);
+        }
         while let Some((number, seconds)) = timer.as_mut().and_then(GpuTimer::take) {
             log.set_gpu_time(number, seconds);
         }

@@ -27,9 +27,10 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    maze_file::expect_writable(&arguments.out, arguments.solution)?;
-    files::expect_outputs(&[("--out", &arguments.out)], &[])?;
     let recipe = arguments.recipe.recipe();
+    let n_cells = recipe.width.saturating_mul(recipe.height);
+    maze_file::expect_writable(&arguments.out, n_cells, arguments.solution)?;
+    files::expect_outputs(&[("--out", &arguments.out)], &[])?;
     let layout = recipe.layout().map_err(Failure::bad_input)?;
     let layout = if arguments.doors { layout.with_doors_top_and_bottom() } else { layout };
     // The numbers are those of the maze as it is played.

@@ -43,6 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let words = SourceWords::try_parse_from(recording.source.split('\n'))
         .map_err(|_| in_file(format!("the recording's source is damaged: {}", recording.source)))?;
     let source = Source::new(&words.maze)?;
+    source.expect_recordable().map_err(|failure| in_file(failure.to_string()))?;
     let mut game = Game::new(source.load()?, engine)?;
     if maze_hash(game.maze()) != recording.maze_hash {
         return Err(in_file(format!("recorded on another maze than {} is now", source.title())));

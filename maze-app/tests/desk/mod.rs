@@ -78,7 +78,7 @@ pub fn until<T>(what: &str, mut ask: impl FnMut() -> Option<T>) -> T {
 pub struct Screen {
     pub display: String,
     _window_manager: Killed,
-    _server: Killed,
+    pub server: Killed,
 }
 
 impl Screen {
@@ -106,7 +106,7 @@ impl Screen {
         );
         // A window that opens while the manager starts is never shown.
         until("the window manager", || output_of("wmctrl", &display, &["-l"]));
-        Self { display, _window_manager: window_manager, _server: server }
+        Self { display, _window_manager: window_manager, server }
     }
 }
 
