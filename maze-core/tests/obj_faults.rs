@@ -120,7 +120,7 @@ proptest! {
         let back = |index: usize, face: &Polygon| {
             let has_back = match which {
                 0 | 1 => true,
-                2 => index % 3 != 0,
+                2 => !index.is_multiple_of(3),
                 _ => index.is_multiple_of(7),
             };
             let moved = reversed(face).into_iter().map(|[x, y, z]| [x + hair, y + hair, z]).collect();
