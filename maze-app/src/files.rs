@@ -158,9 +158,13 @@ fn target_of(path: &Path) -> PathBuf {
 /// A file that a command reads or writes, and what a message calls it.
 pub(crate) type Named<'a> = (&'a str, &'a Path);
 
+/// A file that a command may read, and what a message calls it.
+pub(crate) type Input = (&'static str, PathBuf);
+
 /// Checks before the work that every output can be written, and that none of them is an input or another output, by whatever
 /// name.
-pub(crate) fn expect_outputs(outputs: &[Named], inputs: &[Named]) -> Result<(), Failure> {
+pub(crate) fn expect_outputs(outputs: &[Named], inputs: &[Input]) -> Result<(), Failure> {
+    let inputs: Vec<Named> = inputs.iter().map(|(name, path)| (*name, path.as_path())).collect();
     for (index, (name, path)) in outputs.iter().enumerate() {
         expect_directory_of(path)?;
         expect_replaceable(path)?;
@@ -245,13 +249,22 @@ pub(crate) fn expect_extension(path: &Path, wanted: &str) -> Result<(), Failure>
     Err(Failure::in_file(path, format!("expected a name that ends in .{wanted}")))
 }
 
+/// The files that [`textures`] reads from a directory.
+pub(crate) fn texture_files(directory: &Path) -> [Input; 3] {
+    ["wall", "floor", "top"].map(|name| ("a texture", texture_file(directory, name)))
+}
+
+fn texture_file(directory: &Path, name: &str) -> PathBuf {
+    let [bmp, png] = ["bmp", "png"].map(|ending| directory.join(name).with_extension(ending));
+    if !bmp.exists() && png.exists() { png } else { bmp }
+}
+
 /// Wall, floor and top from a directory, or the ones that come with the game.
 pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> {
     let load = |name: &str, built_in: &'static [u8]| {
         let (shown, bytes) = match directory {
             Some(directory) => {
-                let [bmp, png] = ["bmp", "png"].map(|ending| directory.join(name).with_extension(ending));
-                let path = if !bmp.exists() && png.exists() { png } else { bmp };
+                let path = texture_file(directory, name);
                 (path.display().to_string(), read(&path)?)
             }
             None => (name.to_owned(), built_in.to_vec()),

@@ -6,7 +6,7 @@ use crate::{files, picture};
 use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
 use maze_core::{AssembleOptions, Layout, MAX_GRID_CELLS, Maze, Stage, export, extrude, import};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What a file holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,6 +154,12 @@ pub(crate) fn expect_writable(path: &Path, n_cells: usize, solution: bool) -> Re
 
 /// The materials beside an .obj. Always of this name, so that the same maze is the same file whatever its name.
 const MATERIALS: &str = "maze-app.mtl";
+
+/// The file that [`write`] writes beside one of that name, if any.
+pub(crate) fn written_beside(path: &Path) -> Option<PathBuf> {
+    let is_obj = Kind::of_name(path, &KINDS[..3]).is_ok_and(|kind| kind == Kind::Obj);
+    is_obj.then(|| path.with_file_name(MATERIALS))
+}
 
 /// Writes a layout; the kind is told by the name's ending. An .obj gets its [`MATERIALS`] beside it.
 pub(crate) fn write(

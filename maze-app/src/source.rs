@@ -1,6 +1,7 @@
 //! Where a maze comes from: a file, a level, or a seed.
 
 use crate::failure::Failure;
+use crate::files::Input;
 use crate::levels::{self, Level, N_LEVELS};
 use crate::maze_file::{self, Hints, Loaded};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
@@ -221,8 +222,9 @@ impl Source {
     }
 
     /// The files that it is read from, for [`files::expect_outputs`].
-    pub(crate) fn inputs(&self) -> Vec<(&'static str, &Path)> {
-        self.file().map(|path| ("the maze", path)).into_iter().collect()
+    pub(crate) fn inputs(&self) -> Vec<Input> {
+        let beside = self.file().map(|maze| ("what stands beside the maze", maze.with_extension("toml")));
+        self.file().map(|maze| ("the maze", maze.to_path_buf())).into_iter().chain(beside).collect()
     }
 
     /// Checks that a recording can name this maze.

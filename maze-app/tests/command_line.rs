@@ -447,7 +447,7 @@ fn no_display_and_no_driver_are_one_line() {
 fn an_unwritable_output_is_refused() {
     refused(
         &mut maze_app(&["generate", "--seed", "1", "--out", "/no/such/directory/a.obj"]),
-        "/no/such/directory/a.obj: cannot write: no such file or directory",
+        "/no/such/directory/a.obj: cannot write: expected a file's name in a directory that there is",
     );
 }
 

@@ -80,6 +80,18 @@ fn r5_an_output_is_no_input_and_no_other_output_by_whatever_name() {
         refused(directory, &["frames", "m.obj", "--offscreen", "--csv", name], same);
         assert_eq!(std::fs::read(directory.join("m.obj")).unwrap(), before, "{name}");
     }
+    // What a maze brings with it is an input too, and so is a material that is written beside one.
+    std::fs::write(directory.join("m.toml"), "").unwrap();
+    refused(directory, &["autopilot", "m.obj", "--record", "./m.toml"], "are one file");
+    std::fs::write(directory.join("sub/wall.png"), "").unwrap();
+    let render = ["render", "m.obj", "--textures", "sub", "--out", "./sub/wall.png"];
+    refused(directory, &render, "--out and a texture are one file");
+    std::fs::create_dir(directory.join("sub/maze-app.mtl")).unwrap();
+    refused(
+        directory,
+        &["generate", "--size", "1024x1024", "--out", "sub/x.obj"],
+        "maze-app.mtl: cannot write",
+    );
     // Of two outputs none needs to be there yet.
     let mut pairs = vec![["n.svg", "./n.svg"], ["n.svg", "sub/../n.svg"]];
     if cfg!(unix) {

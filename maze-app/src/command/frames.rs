@@ -90,8 +90,7 @@ pub(crate) fn run(arguments: &Arguments, started: Instant) -> Result<(), Failure
     let csv = arguments.csv.as_deref().map(|path| ("--csv", path));
     let plot = arguments.plot.as_deref().map(|path| ("--plot", path));
     let outputs: Vec<files::Named> = csv.into_iter().chain(plot).collect();
-    let maze = arguments.file.as_deref().map(|path| ("the maze", path));
-    files::expect_outputs(&outputs, maze.as_slice())?;
+    files::expect_outputs(&outputs, &source(arguments).inputs())?;
     let measured = match arguments.offscreen {
         true => offscreen(arguments, started)?,
         false => in_a_window(arguments, started)?,

@@ -30,7 +30,11 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let recipe = arguments.recipe.recipe();
     let n_cells = recipe.width.saturating_mul(recipe.height);
     maze_file::expect_writable(&arguments.out, n_cells, arguments.solution)?;
-    files::expect_outputs(&[("--out", &arguments.out)], &[])?;
+    let materials = maze_file::written_beside(&arguments.out);
+    let materials = materials.as_deref().map(|path| ("its materials", path));
+    let outputs: Vec<files::Named> =
+        [("--out", arguments.out.as_path())].into_iter().chain(materials).collect();
+    files::expect_outputs(&outputs, &[])?;
     let layout = recipe.layout().map_err(Failure::bad_input)?;
     let layout = if arguments.doors { layout.with_doors_top_and_bottom() } else { layout };
     // The numbers are those of the maze as it is played.

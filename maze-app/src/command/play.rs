@@ -79,7 +79,9 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     let record = arguments.record.as_deref().map(|path| ("--record", path));
     let state_log = arguments.state_log.as_deref().map(|path| ("--state-log", path));
     let outputs: Vec<files::Named> = record.into_iter().chain(state_log).collect();
-    files::expect_outputs(&outputs, &source.inputs())?;
+    let mut inputs = source.inputs();
+    inputs.extend(arguments.textures.as_deref().map(files::texture_files).into_iter().flatten());
+    files::expect_outputs(&outputs, &inputs)?;
     if record.is_some() {
         source.expect_recordable()?;
     }

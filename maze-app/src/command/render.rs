@@ -96,7 +96,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
     app::leave_silent();
     let source = Source::known(&arguments.maze)?;
-    files::expect_outputs(&[("--out", &arguments.out)], &source.inputs())?;
+    let mut inputs = source.inputs();
+    inputs.extend(arguments.textures.as_deref().map(files::texture_files).into_iter().flatten());
+    files::expect_outputs(&[("--out", &arguments.out)], &inputs)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let mut game = Game::new(source.load()?, arguments.engine)?;
     game.set_ghost(arguments.ghost)?;
