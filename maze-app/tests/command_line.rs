@@ -370,7 +370,11 @@ fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
         ("maze", square.as_bytes(), "expected a name that ends in .obj, .svg, .txt, .png or .bmp"),
         ("page.svg", b"<html>\n</html>", "page.svg: line 1: the root element is <html>: expected <svg>"),
         ("cut.svg", b"<svg>\n<line x1=\"2\"/>", "line 2: not well-formed XML"),
-        ("letters.txt", b"###\n#x#\n", "letters.txt: line 2, column 2: found 'x'"),
+        (
+            "letters.txt",
+            b"####\n#q #\n####\n",
+            "letters.txt: line 2, column 2: `q`, 1 in all, is neither wall nor free",
+        ),
         ("hole.txt", b"#####\n#SO #\n", "line 2, column 3: `O` is reserved for holes"),
         ("solid.txt", b"###\n###\n", "solid.txt: no corridor"),
         ("short.png", b"\x89PNG\r\n\x1a\n", "expected a PNG or BMP picture"),

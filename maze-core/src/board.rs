@@ -54,9 +54,11 @@ impl Covers {
         let [mut topped, mut lidded, mut floored] = [0; 3].map(|_| vec![false; n_x * n_y]);
         let (mut n_looks, mut roof) = (0_usize, (0, 0.0));
         let mut crossings = Vec::new();
-        let tops_from = survey.tops_from();
+        let (tops_from, seen_from) = (survey.tops_from(), survey.seen_from());
+        let mut low_tops = Vec::new();
         survey.each(|kind, corners| {
             let is_high = corners.iter().all(|corner| tops_from < corner.z);
+            let is_low_top = kind == FaceKind::Up && corners.iter().all(|corner| seen_from < corner.z);
             let cover = match kind {
                 FaceKind::Up if is_high => &mut topped,
                 FaceKind::Up => &mut floored,
@@ -77,6 +79,10 @@ impl Covers {
                     let n_left = crossings.partition_point(|x| *x <= middle);
                     // Inside of a polygon an odd number of its sides lies to the right.
                     if (crossings.len() - n_left) % 2 == 1 {
+                        // The top of a low wall is no floor.
+                        if is_low_top && section.is_solid(i, j) {
+                            low_tops.push(j * n_x + i);
+                        }
                         cover[j * n_x + i] = true;
                         is_over_free |= !section.is_solid(i, j);
                     }
@@ -86,6 +92,9 @@ impl Covers {
                 roof = (roof.0 + 1, roof.1 + doubled_area(corners).norm() / 2.0);
             }
         });
+        for cell in low_tops {
+            topped[cell] = true;
+        }
         let mut covers = Self { topped, topped_parts: [0.0, 1.0], roof, agrees: 0.0, disagrees: 0.0 };
         if n_looks <= MAX_LOOKS {
             covers.sum_up(section, &lidded, &floored);

@@ -256,7 +256,7 @@ impl<'a> Survey<'a> {
     /// units) cannot climb, and those that are lower still.
     pub(crate) fn low_walls(&self, radius: f64) -> LowWalls {
         let (cut_height, low_height) = (self.cut_height(), self.floor_z + CLIMBED_PART * radius);
-        let seen_from = self.floor_z + SEEN_PART * (self.top_z - self.floor_z);
+        let seen_from = self.seen_from();
         let mut low = LowWalls::default();
         self.each(|kind, corners| {
             if !matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis) {
@@ -275,6 +275,11 @@ impl<'a> Survey<'a> {
             }
         });
         low
+    }
+
+    /// What rises above this is more than the floor's unevenness.
+    pub(crate) fn seen_from(&self) -> f64 {
+        self.floor_z + SEEN_PART * (self.top_z - self.floor_z)
     }
 
     /// Notes walls that are drawn and not met.

@@ -16,7 +16,7 @@ const OFTEN_FREE: &str = "-oO:~'`⬜";
 
 /// Signs of a start and of a goal, each the first that is there; letters in either case.
 const STARTS: &str = "SIPA@^2RM🟢🟩";
-const GOALS: &str = "GEFBOTDXZCQK$*!3.🔴🟥🏁";
+const GOALS: &str = "GEFBTDXZCQK$*!3.🔴🟥🏁";
 
 /// Signs that are start and goal together although they are not where [`STARTS`] and [`GOALS`] have them: begin and end, entry
 /// and exit.
@@ -367,9 +367,14 @@ fn known_ends(grid: &Grid, alone: &[usize]) -> Result<[Option<usize>; 2], TextEr
     {
         return Ok(if a < b { [*one, *other] } else { [*other, *one] }.map(Some));
     }
+    // In and out; an `O` without an `I` is something else.
+    if let (Some(way_in), Some(way_out)) = (find('I'), find('O')) {
+        return Ok([Some(way_in), Some(way_out)]);
+    }
     if let Some(start) = best(STARTS, None) {
         // The best goal, or else what is left when there are two.
-        let other = alone.iter().copied().find(|sign| *sign != start && alone.len() == 2);
+        let is_other = |sign: &usize| *sign != start && alone.len() == 2 && letter(*sign) != Some('O');
+        let other = alone.iter().copied().find(is_other);
         return Ok([Some(start), best(GOALS, Some(start)).or(other)]);
     }
     for [begin, end] in PAIRS {
