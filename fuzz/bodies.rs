@@ -28,6 +28,11 @@ pub(crate) fn svg(bytes: &[u8]) {
         }
     }
     let Ok(maze) = import::svg::read_cells(bytes) else { return };
+    let (width, height) = (maze.layout.width(), maze.layout.height());
+    if maze.layout.n_passages() + width + height == 2 * width * height {
+        // In a hall nothing shows how large cells are.
+        return;
+    }
     let text = export::svg::write(&maze.layout, maze.solution.as_deref(), "");
     let again = import::svg::read_cells(text.as_bytes());
     let again = again.unwrap_or_else(|error| panic!("{error}: {text}"));

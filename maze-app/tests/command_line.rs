@@ -377,7 +377,7 @@ fn bad_maze_files_are_refused_by_every_command_that_reads_one() {
         ),
         ("hole.txt", b"#####\n#SO #\n", "line 2, column 3: `O` is reserved for holes"),
         ("solid.txt", b"###\n###\n", "solid.txt: no corridor"),
-        ("short.png", b"\x89PNG\r\n\x1a\n", "expected a PNG or BMP picture"),
+        ("short.png", b"\x89PNG\r\n\x1a\n", "the picture is cut off after 8 bytes: expected a whole PNG"),
         ("text.bmp", b"###\n", "text.bmp: not a PNG or BMP picture"),
         ("drawing.txt", b"<svg/>", "drawing.txt: is named .txt, but what it holds is .svg: rename it"),
         ("picture.obj", b"\x89PNG\r\n\x1a\n", "is named .obj, but what it holds is .png: rename it"),
