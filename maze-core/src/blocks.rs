@@ -208,9 +208,15 @@ impl Blocks {
             let mesh = || extrude::extrude_blocks(self, &xs, &ys, |axis, k| self.line(axis, k), height);
             maze_of_grid([xs.len(), ys.len()], mesh, options, &given)
         };
-        let maze = of_height(WALL_HEIGHT)?;
-        // Only now it is known how many blocks make a corridor.
-        if maze.scale != 1.0 { of_height(WALL_HEIGHT / maze.scale) } else { Ok(maze) }
+        let scale = {
+            let maze = of_height(WALL_HEIGHT)?;
+            if maze.scale == 1.0 {
+                return Ok(maze);
+            }
+            maze.scale
+        };
+        // Only now it is known how many blocks make a corridor; the first maze is gone before there is another one.
+        of_height(WALL_HEIGHT / scale)
     }
 }
 

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 const MAX_DEPTH: usize = 1000;
 
 /// Most points of all shapes: a maze of 1000 x 1000 cells has some, and each takes 16 bytes.
-const MAX_POINTS: usize = 1 << 21;
+const MAX_POINTS: usize = 1_500_000;
 
 /// Most elements that copies (`use`) may draw, and how deep copies of copies go.
 const MAX_COPIED: usize = 1 << 16;

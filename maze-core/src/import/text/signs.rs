@@ -6,6 +6,9 @@ use super::{TextError, TextOptions};
 /// Most signs of which every combination is tried; files have two or three.
 const MAX_UNDECIDED: usize = 5;
 
+/// Most cells times combinations that are looked at: a second or two.
+const MAX_LOOKS: usize = 1 << 26;
+
 /// Signs that draw a wall, or free space, wherever they are used in that sense in most files.
 const WALLS: &str = "#%█▓▒■◼▉▇▊＃🧱";
 const FREE: &str = " ._·⋅∙░□▫◻,";
@@ -155,8 +158,9 @@ fn decide(
             custom.iter().any(is_strict) && (has_blanks || custom.iter().any(|value| *value < 0));
         custom[*index] == 0 && is_known_otherwise && (n == 1 || letter(text).is_some_and(char::is_alphabetic))
     };
-    if let Some(index) = (0..undecided.len()).find(unknown).or((MAX_UNDECIDED < undecided.len()).then_some(0))
-    {
+    let n_looks = grid.cells.len().saturating_mul(1 << undecided.len().min(MAX_UNDECIDED));
+    let is_too_much = MAX_UNDECIDED < undecided.len() || MAX_LOOKS < n_looks;
+    if let Some(index) = (0..undecided.len()).find(unknown).or(is_too_much.then_some(0)) {
         let sign = undecided[index];
         let found = grid.signs[sign].clone();
         let n = counts[sign];
