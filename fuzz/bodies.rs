@@ -86,6 +86,10 @@ fn text_round_trip(blocks: &Blocks) {
         let is_wall = left <= x && bottom <= y && again.is_wall(x - left, y - bottom);
         assert_eq!(is_wall, blocks.is_wall(x, y));
     }
+    if matches!(blocks.ends(), [Some(start), Some(goal)] if start == goal) {
+        // One sign is all that fits into a block.
+        return;
+    }
     let moved = blocks.ends().map(|end| end.map(|[x, y]| [x - left, y - bottom]));
     assert_eq!(again.ends(), moved);
 }
