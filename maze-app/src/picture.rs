@@ -111,6 +111,33 @@ mod tests {
     }
 
     #[test]
+    fn f21_what_is_wrong_is_said_of_that_file() {
+        let error = |bytes: &[u8]| colours(bytes).unwrap_err();
+        assert_eq!(error(b""), "the file is empty: expected a PNG or BMP picture");
+        for (format, name) in [(ImageFormat::Png, "PNG"), (ImageFormat::Bmp, "BMP")] {
+            let bytes = encoded(&DynamicImage::from(GrayImage::new(9, 5)), format);
+            let half = &bytes[..bytes.len() - 20];
+            let expected =
+                format!("the picture is cut off after {} bytes: expected a whole {name}", half.len());
+            assert_eq!(error(half), expected);
+        }
+    }
+
+    #[test]
+    fn f21_a_fourth_byte_of_0_everywhere_is_no_transparency() {
+        let image = RgbaImage::from_fn(12, 8, |x, y| {
+            let tone = if is_wall(x / 2, y / 2) { 0 } else { 255 };
+            Rgba([tone, tone, tone, 0])
+        });
+        let bmp = encoded(&DynamicImage::from(image.clone()), ImageFormat::Bmp);
+        let loaded = maze(&bmp, &AssembleOptions::default(), None).unwrap();
+        assert!(loaded.found.unwrap().contains("6 x 4 cells of 2 x 2 pixels"));
+        // In a PNG it is: nothing is seen.
+        let png = encoded(&DynamicImage::from(image), ImageFormat::Png);
+        assert!(colours(&png).unwrap().2.iter().all(|pixel| *pixel == [255; 3]));
+    }
+
+    #[test]
     fn a_header_that_promises_too_much_is_refused_at_once() {
         let mut png = encoded(&DynamicImage::from(GrayImage::new(8, 8)), ImageFormat::Png);
         let side = 60_000_u32.to_be_bytes();

@@ -39,6 +39,17 @@ fn a_24_bit_bitmap_is_read_the_right_way_up() {
 }
 
 #[test]
+fn f20_a_png_is_a_texture_too() {
+    const TONES: [u8; 3] = [0, 10, 20];
+    let tone = |at: u32| TONES[at as usize];
+    let picture = image::RgbaImage::from_fn(3, 2, |x, y| image::Rgba([tone(x), tone(2 * y), 7, 255]));
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    let texture = decode_texture("wall.png", bytes.get_ref()).unwrap();
+    assert_eq!((texture.dimensions(), texture.get_pixel(2, 1).0), ((3, 2), [20, 20, 7]));
+}
+
+#[test]
 fn what_is_not_a_bitmap_is_named() {
     assert_eq!(
         refusal(b"GIF89a rest"),
