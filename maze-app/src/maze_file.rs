@@ -155,7 +155,7 @@ pub(crate) fn expect_writable(path: &Path, n_cells: usize, solution: bool) -> Re
 /// The materials beside an .obj. Always of this name, so that the same maze is the same file whatever its name.
 const MATERIALS: &str = "maze-app.mtl";
 
-/// The file that [`write`] writes beside one of that name, if any.
+/// The file that [`write()`] writes beside one of that name, if any.
 pub(crate) fn written_beside(path: &Path) -> Option<PathBuf> {
     let is_obj = Kind::of_name(path, &KINDS[..3]).is_ok_and(|kind| kind == Kind::Obj);
     is_obj.then(|| path.with_file_name(MATERIALS))

@@ -221,7 +221,7 @@ impl Source {
         }
     }
 
-    /// The files that it is read from, for [`files::expect_outputs`].
+    /// The files that it is read from, for [`crate::files::expect_outputs`].
     pub(crate) fn inputs(&self) -> Vec<Input> {
         let beside = self.file().map(|maze| ("what stands beside the maze", maze.with_extension("toml")));
         self.file().map(|maze| ("the maze", maze.to_path_buf())).into_iter().chain(beside).collect()

@@ -28,7 +28,7 @@ const PAIRS: [[char; 2]; 2] = [['B', 'E'], ['E', 'X']];
 /// What each sign of a grid means.
 #[derive(Clone, Debug)]
 pub(super) struct Reading {
-    /// [sign]: whether it is wall.
+    /// By sign: whether it is wall.
     pub(super) is_wall: Vec<bool>,
     /// The cells of start and goal.
     pub(super) ends: [Option<usize>; 2],
