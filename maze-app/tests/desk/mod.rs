@@ -10,7 +10,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 /// Long enough for a software driver on a busy machine; a condition that holds ends the wait at once.
-const PATIENCE: Duration = Duration::from_secs(30);
+pub const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The default limit of the tilt, and the rounding of one quantised step.
 pub const MAX_TILT_DEGREES: f64 = 20.0 + 0.01;
