@@ -16,7 +16,7 @@ use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use irregular::{Scene, depth, rounding};
 use maze_core::engine::RolledArc;
-use maze_core::impact::Path;
+use maze_core::time_of_impact::Path;
 use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Observer, Plane};
 use maze_core::{Radius, SortedPlanes, Tick, extrude, layout};
 use nalgebra::Vector2;

@@ -35,55 +35,32 @@
 //! ```
 #![forbid(unsafe_code)]
 
-mod assemble;
-mod autopilot;
-mod ball;
-mod blocks;
-mod board;
-mod carlson;
-pub mod contact;
-mod draft;
-pub mod engine;
+mod assembly;
 pub mod export;
-pub mod extrude;
-mod feature;
-mod frame;
-pub mod gravity;
-pub mod impact;
 pub mod import;
 pub mod layout;
 mod maze;
-mod plane;
-mod polygons;
-mod printable;
-mod reach;
-pub mod replay;
-mod roots;
-mod rules;
-mod section;
-mod slice;
-mod sorted_planes;
-pub mod surface;
-mod survey;
-mod tolerance;
-pub mod trace;
-mod way;
-mod winding;
+mod navigation;
+mod physics;
+mod play;
 
-pub use assemble::{AssembleError, AssembleOptions, Stage};
-pub use autopilot::Autopilot;
-pub use ball::{Ball, BallSpec, OutOfRange, Radius};
-pub use blocks::{Blocks, BlocksError, MAX_GRID_CELLS};
-pub use draft::SectionError;
-pub use engine::{
+pub use assembly::assemble::{AssembleError, AssembleOptions, Stage};
+pub use assembly::draft::SectionError;
+pub use assembly::polygons::{PolygonMesh, UpAxis};
+pub use assembly::survey::Misfit;
+pub use assembly::{extrude, surface};
+pub use import::printable::printable;
+pub use layout::Layout;
+pub use layout::blocks::{Blocks, BlocksError, MAX_GRID_CELLS};
+pub use maze::{Bounds, FaceNote, Maze};
+pub use physics::ball::{Ball, BallSpec, OutOfRange, Radius};
+pub use physics::engine::{
     BallState, Contact, Contacts, Continuous, Engine, Hit, Observer, Published, RolledArc, Tick,
 };
-pub use gravity::Tilt;
-pub use layout::Layout;
-pub use maze::{Bounds, FaceNote, Maze};
-pub use plane::{Facing, Plane, PlaneError};
-pub use polygons::{PolygonMesh, UpAxis};
-pub use printable::printable;
-pub use rules::{Event, Phase, Run};
-pub use sorted_planes::{Clearance, SortedPlanes};
-pub use survey::Misfit;
+pub use physics::gravity::Tilt;
+pub use physics::sorted_planes::{Clearance, SortedPlanes};
+pub use physics::wall::{Facing, Plane, PlaneError};
+pub use physics::{contact, engine, gravity, time_of_impact, trace};
+pub use play::autopilot::Autopilot;
+pub use play::replay;
+pub use play::rules::{Event, Phase, Run};

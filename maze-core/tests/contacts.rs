@@ -9,7 +9,7 @@ mod noise;
 
 use contact_scene::{R, Scene};
 use irregular::block;
-use maze_core::impact::{self, Path};
+use maze_core::time_of_impact::{self, Path};
 use maze_core::{Ball, Engine, Facing, Plane};
 use nalgebra::Vector2;
 
@@ -30,7 +30,7 @@ fn however_slowly_it_falls_a_ball_touches_the_face_it_lies_on() {
     for speed in [1.0e-150, 1.0e-162, 1.0e-200, 5.0e-324] {
         let (position, velocity) = (Vector2::new(0.0, R), Vector2::new(0.0, -speed));
         let path = Path { position, velocity, acceleration: Vector2::new(0.0, -4.0) };
-        assert_eq!(impact::face(&path, R, &floor), Some(0.0), "{speed:e}");
+        assert_eq!(time_of_impact::face(&path, R, &floor), Some(0.0), "{speed:e}");
         let scene = Scene::new(ground(5.0), [0.0, R], [0.0, -speed], [0.0, -4.0]);
         scene.rests_at(0.3, 0.0, R, &format!("speed {speed:e}"));
     }

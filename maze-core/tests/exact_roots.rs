@@ -3,7 +3,7 @@
 
 mod noise;
 
-use maze_core::impact::{self, Path};
+use maze_core::time_of_impact::{self, Path};
 use nalgebra::Vector2;
 use noise::Noise;
 use num_rational::BigRational as Exact;
@@ -116,7 +116,7 @@ fn a_corner_touch_is_the_first_root_to_a_stated_number_of_roundings() {
             continue;
         }
         let excess = excess(&path, radius);
-        let Some(time_s) = impact::corner(&path, radius, Vector2::zeros(), HORIZON_S) else {
+        let Some(time_s) = time_of_impact::corner(&path, radius, Vector2::zeros(), HORIZON_S) else {
             // A graze is none: within the radius less 10^-9 of it the path never comes.
             let inner = self::excess(&path, radius * (1.0 - 1.0e-9));
             assert_eq!(inner.n_roots(&zero(), &exact(HORIZON_S)), 0, "case {n}: {path:?}, radius {radius}");

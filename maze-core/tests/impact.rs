@@ -10,7 +10,7 @@
     reason = "the truth that a test compares with may be computed in any way"
 )]
 
-use maze_core::impact::{self, Feature, Path};
+use maze_core::time_of_impact::{self, Feature, Path};
 use maze_core::{Facing, Plane, SortedPlanes, contact};
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -32,8 +32,8 @@ fn of_two_touches_at_the_very_start_the_one_that_is_approached_faster_is_found()
     ] {
         let [velocity, acceleration] = [velocity, acceleration].map(|[x, y]| Vector2::new(x, y));
         let path = Path { position: Vector2::new(0.35, 0.35), velocity, acceleration };
-        let first = impact::first(&planes, &path, 0.35, 0.03, None);
-        assert_eq!(first, impact::first_scan(&planes, &path, 0.35, 0.03, None));
+        let first = time_of_impact::first(&planes, &path, 0.35, 0.03, None);
+        assert_eq!(first, time_of_impact::first_scan(&planes, &path, 0.35, 0.03, None));
         assert!(matches!(first.unwrap().touched, Feature::Face(face) if face.facing == facing));
     }
 }
@@ -46,8 +46,8 @@ fn a_corner_is_met_by_a_ball_that_starts_too_slowly_for_squares() {
         velocity: Vector2::repeat(1.5e-162),
         acceleration: Vector2::new(10.0, 0.0),
     };
-    let truth = impact::corner(&path, 0.35, Vector2::new(3.0, -0.1), 1.0);
-    assert_eq!(impact::first(&planes, &path, 0.35, 1.0, None).map(|impact| impact.time_s), truth);
+    let truth = time_of_impact::corner(&path, 0.35, Vector2::new(3.0, -0.1), 1.0);
+    assert_eq!(time_of_impact::first(&planes, &path, 0.35, 1.0, None).map(|impact| impact.time_s), truth);
     assert!(truth.is_some());
 }
 
@@ -120,8 +120,8 @@ fn any_path() -> impl Strategy<Value = Path> {
 fn earliest(planes: &SortedPlanes, path: &Path, radius: f64, until_s: f64) -> Option<f64> {
     let times = Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing)).flat_map(|face| {
         let ends = [face.start, face.end].map(|along| face.facing.point(face.offset, along));
-        let corners = ends.map(|point| impact::corner(path, radius, point, until_s));
-        corners.into_iter().chain([impact::face(path, radius, &face)]).flatten().collect::<Vec<_>>()
+        let corners = ends.map(|point| time_of_impact::corner(path, radius, point, until_s));
+        corners.into_iter().chain([time_of_impact::face(path, radius, &face)]).flatten().collect::<Vec<_>>()
     });
     times.filter(|time_s| *time_s <= until_s).min_by(f64::total_cmp)
 }
@@ -141,10 +141,10 @@ proptest! {
         // A path that starts inside a wall has no first touch from outside.
         let overlaps = |plane: &Plane| contact::find(path.position, radius, plane).is_some();
         prop_assume!(!plan.is_inside(path.position) && !plan.faces().iter().any(overlaps));
-        let truth = impact::first_scan(&sorted, &path, radius, until_s, None);
-        prop_assert_eq!(impact::first(&sorted, &path, radius, until_s, None), truth);
+        let truth = time_of_impact::first_scan(&sorted, &path, radius, until_s, None);
+        prop_assert_eq!(time_of_impact::first(&sorted, &path, radius, until_s, None), truth);
         prop_assert!(truth.is_none_or(|impact| (0.0..=until_s).contains(&impact.time_s)), "{:?}", truth);
-        prop_assert_eq!(impact::first(&sorted.clone().without_directories(), &path, radius, until_s, None), truth);
+        prop_assert_eq!(time_of_impact::first(&sorted.clone().without_directories(), &path, radius, until_s, None), truth);
         prop_assert_eq!(truth.map(|impact| impact.time_s), earliest(&sorted, &path, radius, until_s));
     }
 
@@ -163,8 +163,8 @@ proptest! {
         });
         let sorted = SortedPlanes::new(sides).unwrap();
         prop_assume!(sorted.planes_within(path.position, radius).next().is_none());
-        let truth = impact::first_scan(&sorted, &path, radius, 0.5, None);
-        prop_assert_eq!(impact::first(&sorted, &path, radius, 0.5, None), truth);
+        let truth = time_of_impact::first_scan(&sorted, &path, radius, 0.5, None);
+        prop_assert_eq!(time_of_impact::first(&sorted, &path, radius, 0.5, None), truth);
         prop_assert_eq!(truth.map(|impact| impact.time_s), earliest(&sorted, &path, radius, 0.5));
     }
 
@@ -173,7 +173,7 @@ proptest! {
     fn corner_touch_is_at_the_radius_and_the_first(path in any_path(), radius in 0.05..1.0_f64) {
         let start = path.position.norm();
         prop_assume!(radius + 1.0e-6 < start);
-        if let Some(time_s) = impact::corner(&path, radius, Vector2::zeros(), 1.0) {
+        if let Some(time_s) = time_of_impact::corner(&path, radius, Vector2::zeros(), 1.0) {
             let scale = 1.0 + path.velocity.norm() + path.acceleration.norm();
             prop_assert!((path.at(time_s).norm() - radius).abs() < 1.0e-13 * scale * scale, "{}", path.at(time_s).norm() - radius);
             for part in 1..200_u32 {
@@ -203,7 +203,7 @@ fn faces_and_corners_of_a_scene_are_told_apart() {
         velocity: Vector2::new(1.0, 0.0),
         acceleration: Vector2::zeros(),
     };
-    let hit = |y| impact::first(&planes, &towards(y), 0.25, 9.0, None).map(|impact| impact.touched);
+    let hit = |y| time_of_impact::first(&planes, &towards(y), 0.25, 9.0, None).map(|impact| impact.touched);
     assert!(matches!(hit(0.5), Some(Feature::Face(face)) if face.facing == Facing::MinusX));
     assert_eq!(hit(1.1), Some(Feature::Point(Vector2::new(0.0, 1.0))));
     assert_eq!(hit(1.3), None);
@@ -218,7 +218,7 @@ fn a_wall_without_thickness_is_hit_on_its_end() {
         velocity: Vector2::new(0.0, -1.0),
         acceleration: Vector2::zeros(),
     };
-    let impact = impact::first(&planes, &down, 0.25, 9.0, None).unwrap();
+    let impact = time_of_impact::first(&planes, &down, 0.25, 9.0, None).unwrap();
     assert_eq!((impact.time_s, impact.touched), (1.75, Feature::Point(Vector2::new(0.0, 1.0))));
 }
 
@@ -232,6 +232,6 @@ fn a_ball_that_stands_on_a_corner_and_is_pressed_onto_it_does_not_sink_in() {
         acceleration: Vector2::new(-706.269_780_920_510_7, -451.637_454_820_102_96),
     };
     let point = Vector2::new(3.699_999_999_999_999_3, 2.5);
-    let time_s = impact::corner(&path, 0.483_449_553_882_032_6, point, 0.03).unwrap();
+    let time_s = time_of_impact::corner(&path, 0.483_449_553_882_032_6, point, 0.03).unwrap();
     assert!(time_s < 1.0e-7, "{time_s}");
 }

@@ -8,7 +8,7 @@ mod noise;
 
 use images::{Image, MIRRORED, TURNED};
 use irregular::{Scene, depth, rounding};
-use maze_core::impact::Path;
+use maze_core::time_of_impact::Path;
 use maze_core::{Ball, BallSpec, Continuous, Engine, Hit, Observer, Plane, Radius, SortedPlanes, Tick};
 use nalgebra::Vector2;
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_core::{
-    Ball, BallSpec, Bounds, Continuous, Engine, Facing, Observer, OutOfRange, Plane, Tick, impact,
+    Ball, BallSpec, Bounds, Continuous, Engine, Facing, Observer, OutOfRange, Plane, Tick, time_of_impact,
 };
 use maze_verify::results::{Partition, Results};
 use maze_verify::scene::{Scene, Stage, catalogue};
@@ -194,10 +194,13 @@ impl Engine for FacesOnly {
     ) -> Result<Tick, OutOfRange> {
         let mut left_s = self.tick_s;
         loop {
-            let path =
-                impact::Path { position: self.ball.position, velocity: self.ball.velocity, acceleration };
+            let path = time_of_impact::Path {
+                position: self.ball.position,
+                velocity: self.ball.velocity,
+                acceleration,
+            };
             let hits = self.planes.iter().filter_map(|plane| {
-                Some((impact::face(&path, self.spec.radius.units(), plane)?, plane.facing.axis()))
+                Some((time_of_impact::face(&path, self.spec.radius.units(), plane)?, plane.facing.axis()))
             });
             let first = hits.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|hit| hit.0 < left_s);
             let until_s = first.map_or(left_s, |hit| hit.0);

@@ -5,7 +5,7 @@ mod table;
 
 use crate::game::{Game, to_f32};
 use crate::ui::to_points;
-use maze_core::impact::Path;
+use maze_core::time_of_impact::Path;
 use maze_core::trace::{self, GroupVisit, SearchTrace};
 use maze_core::{Facing, Hit, Plane, contact, gravity};
 use maze_render::Scene;

@@ -3,7 +3,7 @@
 #[path = "../../tests/noise/mod.rs"]
 mod noise;
 
-use maze_core::impact::{self, Path};
+use maze_core::time_of_impact::{self, Path};
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Maze, Plane, Published, SortedPlanes,
 };
@@ -25,8 +25,8 @@ type Prepare = fn() -> Result<Round, Box<dyn Error>>;
 
 /// Every call that is counted, by name.
 pub(crate) const CALLS: [(&str, Prepare); 7] = [
-    ("impact::first, 0.1 corridors", || first(0.1)),
-    ("impact::first, 10 corridors", || first(10.0)),
+    ("time_of_impact::first, 0.1 corridors", || first(0.1)),
+    ("time_of_impact::first, 10 corridors", || first(10.0)),
     ("Continuous::tick, rolling", || {
         rolling(usual, |engine, pull| {
             let _ = black_box(engine.tick(pull));
@@ -86,7 +86,7 @@ fn first(way: f64) -> Result<Round, Box<dyn Error>> {
     let paths: Vec<Path> = (0..N).map(&mut path).collect();
     let make = move || {
         for path in &paths {
-            black_box(impact::first(&planes, black_box(path), radius, 1.0, None));
+            black_box(time_of_impact::first(&planes, black_box(path), radius, 1.0, None));
         }
     };
     Ok(Round { n_calls: N as usize, make: Box::new(make) })

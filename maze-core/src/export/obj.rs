@@ -1,7 +1,7 @@
 //! Polygons -> OBJ and MTL.
 
-use crate::polygons::{PolygonMesh, doubled_area};
-use crate::surface::Surface;
+use crate::assembly::polygons::{PolygonMesh, doubled_area};
+use crate::assembly::surface::Surface;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,7 +1,7 @@
 //! Layouts -> SVG, in the form of mazegenerator.net.
 
-use crate::blocks::Blocks;
-use crate::extrude::runs;
+use crate::assembly::extrude::runs;
+use crate::layout::blocks::Blocks;
 use crate::layout::{Layout, Side};
 use std::fmt::Write;
 

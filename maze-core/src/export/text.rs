@@ -1,6 +1,6 @@
 //! Blocks -> text, as [`crate::import::text`] reads it.
 
-use crate::blocks::Blocks;
+use crate::layout::blocks::Blocks;
 
 /// One character a block, without spaces at the ends of lines.
 pub fn write(blocks: &Blocks) -> String {

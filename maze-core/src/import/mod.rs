@@ -2,5 +2,6 @@
 
 pub mod obj;
 pub mod picture;
+pub(crate) mod printable;
 pub mod svg;
 pub mod text;

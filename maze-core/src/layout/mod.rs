@@ -1,5 +1,6 @@
 //! Grid mazes: cells, and which of them are joined.
 
+pub(crate) mod blocks;
 mod door;
 mod generate;
 mod metrics;

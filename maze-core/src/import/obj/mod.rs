@@ -5,7 +5,7 @@
 
 mod clean;
 
-use crate::polygons::PolygonMesh;
+use crate::assembly::polygons::PolygonMesh;
 use clean::{Counts, Faces, LineReader, Lines, found, vertices};
 use nalgebra::Vector3;
 use std::io::BufReader;

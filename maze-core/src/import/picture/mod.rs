@@ -2,7 +2,7 @@
 
 mod tones;
 
-use crate::blocks::{Blocks, BlocksError};
+use crate::layout::blocks::{Blocks, BlocksError};
 use crate::{AssembleOptions, Maze};
 use tones::Tones;
 
@@ -249,7 +249,7 @@ mod tests {
         let maze = read(50, 50, &pixels, None).unwrap().maze(&AssembleOptions::default()).unwrap();
         assert!((maze.scale - 1.0 / 7.0).abs() < 1.0e-12, "{}", maze.scale);
         assert!(maze.solvable && maze.openings.len() == 2);
-        assert!((maze.wall_height - crate::extrude::WALL_HEIGHT).abs() < 1.0e-9);
+        assert!((maze.wall_height - crate::assembly::extrude::WALL_HEIGHT).abs() < 1.0e-9);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::drawing::{Chain, Source};
 use super::{SvgError, SvgMaze};
-use crate::blocks::to_f64;
+use crate::layout::blocks::to_f64;
 use crate::layout::{Door, Layout, Side};
 
 /// How far from a grid line, in cells, a wall may lie: drawings are rounded, to a tenth of a unit in cells of 16 or so.

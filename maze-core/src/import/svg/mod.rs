@@ -6,8 +6,8 @@ mod numbers;
 mod painted;
 mod style;
 
-use crate::assemble::AssembleOptions;
-use crate::blocks::{Blocks, BlocksError, to_f64};
+use crate::assembly::assemble::AssembleOptions;
+use crate::layout::blocks::{Blocks, BlocksError, to_f64};
 use crate::layout::{Layout, LayoutSizeError};
 use crate::maze::Maze;
 use drawing::Drawing;

@@ -3,7 +3,7 @@
 use super::SvgError;
 use super::drawing::{Drawing, Form, Shape, has_area, is_coloured, is_same};
 use super::style::Rgb;
-use crate::blocks::Blocks;
+use crate::layout::blocks::Blocks;
 
 /// Edges nearer than this part of the drawing's size are one.
 const SAME_PART: f64 = 1.0e-5;

@@ -9,8 +9,8 @@ mod grid;
 mod sides;
 mod signs;
 
-use crate::assemble::AssembleOptions;
-use crate::blocks::{Blocks, BlocksError};
+use crate::assembly::assemble::AssembleOptions;
+use crate::layout::blocks::{Blocks, BlocksError};
 use crate::maze::Maze;
 use grid::{BLANK, Grid, Line};
 use sides::Sides;

@@ -1,7 +1,7 @@
 //! Cells with walls at their sides -> blocks.
 
 use super::{MAX_BLOCKS, TextError};
-use crate::blocks::Blocks;
+use crate::layout::blocks::Blocks;
 
 /// A rectangle of square cells with walls between them, row by row from the top.
 #[derive(Clone, Debug)]

@@ -2,11 +2,11 @@
 //!
 //! It works for no other maze: every coordinate follows from a cell's number, so that one word of memory tells the walls of
 //! sixteen cells. Faces and corners that the bits and the boxes around the motion leave go through maze-core's own
-//! [`impact::face`] and [`impact::corner`], so that the answers are the same to the bit.
+//! [`time_of_impact::face`] and [`time_of_impact::corner`], so that the answers are the same to the bit.
 
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::{PITCH, RADIUS};
-use maze_core::impact::{self, Path};
+use maze_core::time_of_impact::{self, Path};
 use maze_core::{Facing, Plane, extrude};
 use nalgebra::Vector2;
 
@@ -219,7 +219,7 @@ impl First<'_> {
         let facing = [Facing::PlusX, Facing::MinusX, Facing::PlusY, Facing::MinusY][bit];
         let along = lines[1 - axis];
         let plane = Plane { facing, offset: lines[axis][1 + side], start: along[start], end: along[end] };
-        if let Some(time_s) = impact::face(&self.query.path, RADIUS, &plane) {
+        if let Some(time_s) = time_of_impact::face(&self.query.path, RADIUS, &plane) {
             self.time_s = self.time_s.min(time_s);
         }
     }
@@ -239,7 +239,7 @@ impl First<'_> {
         if is_left_behind || is_ahead {
             return;
         }
-        if let Some(time_s) = impact::corner(path, RADIUS, point, *until_s) {
+        if let Some(time_s) = time_of_impact::corner(path, RADIUS, point, *until_s) {
             self.time_s = self.time_s.min(time_s);
         }
     }

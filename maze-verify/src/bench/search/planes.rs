@@ -3,7 +3,7 @@
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::RADIUS;
 use maze_core::engine::published::SUBSTEP;
-use maze_core::impact::{self, Impact, Path};
+use maze_core::time_of_impact::{self, Impact, Path};
 use maze_core::{Facing, SortedPlanes};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -26,18 +26,18 @@ fn planes(case: &Case) -> Result<Arc<SortedPlanes>, BenchError> {
 
 /// The search that the game uses.
 pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: planes(case)?, find: impact::first }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: time_of_impact::first }))
 }
 
 /// The same by bisection alone.
 pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
     let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_directories();
-    Ok(Box::new(Planes { planes: Arc::new(planes), find: impact::first }))
+    Ok(Box::new(Planes { planes: Arc::new(planes), find: time_of_impact::first }))
 }
 
 /// Every plane of every group.
 pub(super) fn scan(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: planes(case)?, find: impact::first_scan }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: time_of_impact::first_scan }))
 }
 
 /// What the report's engine asks: an overlap at the end of a step, or after every 0.02 units of one longer than the radius.

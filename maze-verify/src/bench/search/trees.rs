@@ -7,7 +7,7 @@ use crate::bench::case::{RADIUS, WallFace};
 use bvh::aabb::{Aabb, Bounded};
 use bvh::bounding_hierarchy::BHShape;
 use bvh::bvh::Bvh;
-use maze_core::impact;
+use maze_core::time_of_impact;
 use nalgebra::{Point2, Vector2};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -50,10 +50,10 @@ fn first_touch(query: &Query, near: impl Fn([Vector2<f64>; 2], &mut dyn FnMut(&W
 /// When a face or one of its corners is touched (s), without end when it is not.
 fn touch(query: &Query, face: &WallFace) -> f64 {
     let Query { path, until_s } = query;
-    let mut best = impact::face(path, RADIUS, &face.plane).unwrap_or(f64::INFINITY);
+    let mut best = time_of_impact::face(path, RADIUS, &face.plane).unwrap_or(f64::INFINITY);
     for (point, is_corner) in ends(face).into_iter().zip(face.is_corner) {
         if is_corner && can_touch(query, point) {
-            best = best.min(impact::corner(path, RADIUS, point, *until_s).unwrap_or(f64::INFINITY));
+            best = best.min(time_of_impact::corner(path, RADIUS, point, *until_s).unwrap_or(f64::INFINITY));
         }
     }
     best
