@@ -39,7 +39,9 @@ impl EngineKind {
             Self::Continuous => {
                 Continuous::new(planes, spec, ball, Published::TICK_S).map(|engine| Box::new(engine) as _)
             }
-            Self::Published => Published::new(planes, spec, ball).map(|engine| Box::new(engine) as _),
+            Self::Published => {
+                Published::new(planes, spec, ball, Published::TICK_S).map(|engine| Box::new(engine) as _)
+            }
             Self::Rapier => return rapier(maze, spec, ball),
         };
         built.map_err(Failure::bad_input)

@@ -54,13 +54,15 @@ pub use layout::Layout;
 pub use layout::blocks::{Blocks, BlocksError, MAX_GRID_CELLS};
 pub use maze::{Bounds, FaceNote, Maze};
 pub use physics::ball::{Ball, BallSpec, OutOfRange, Radius};
-pub use physics::engine::{
-    BallState, Contact, Contacts, Continuous, Engine, Hit, Observer, Published, RolledArc, Tick,
-};
+pub use physics::engine::{Continuous, Engine, Published};
 pub use physics::gravity::Tilt;
 pub use physics::sorted_planes::{Clearance, SortedPlanes};
-pub use physics::wall::{Facing, Plane, PlaneError};
-pub use physics::{contact, engine, gravity, time_of_impact, trace};
+pub use physics::sweep::{Sweep, SweepQuery};
+pub use physics::tick::{Hit, Observer, RolledArc, Tick};
+pub use physics::time_of_impact::Path;
+pub use physics::wall::{Facing, Feature, Plane, PlaneError};
+pub use physics::world::{BallState, BatchError, Contact, Contacts, MAX_EVENTS, MAX_TICK_S, World};
+pub use physics::{contact, engine, gravity, sweep, time_of_impact, trace};
 pub use play::autopilot::Autopilot;
 pub use play::replay;
 pub use play::rules::{Event, Phase, Run};

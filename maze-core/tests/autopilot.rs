@@ -44,7 +44,7 @@ fn finishes_200_of_200_random_mazes_on_both_engines() {
         let maze = maze(20, 20, seed);
         let (spec, ball) = (BallSpec::default(), Ball::at(maze.start));
         let mut exact = Continuous::new(maze.planes.clone(), spec, ball, Published::TICK_S).unwrap();
-        let mut published = Published::new(maze.planes.clone(), spec, ball).unwrap();
+        let mut published = Published::new(maze.planes.clone(), spec, ball, Published::TICK_S).unwrap();
         for (name, engine) in [("continuous", &mut exact as &mut dyn Engine), ("published", &mut published)] {
             let n_ticks = play(&maze, engine);
             assert!(n_ticks.is_some(), "seed {seed}, {name}: stuck at {:?}", engine.ball());

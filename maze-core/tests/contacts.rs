@@ -9,7 +9,8 @@ mod noise;
 
 use contact_scene::{R, Scene};
 use irregular::block;
-use maze_core::time_of_impact::{self, Path};
+use maze_core::Path;
+use maze_core::time_of_impact;
 use maze_core::{Ball, Engine, Facing, Plane};
 use nalgebra::Vector2;
 
@@ -317,12 +318,12 @@ fn a_ball_that_rests_between_two_features_leaves_when_the_board_turns() {
         engine.tick(Vector2::new(2.0, -4.0)).unwrap();
     }
     let rest = engine.ball();
-    assert_eq!((rest.velocity, engine.state().contacts.iter().count()), (Vector2::zeros(), 2));
+    assert_eq!((rest.velocity, engine.state().contacts().iter().count()), (Vector2::zeros(), 2));
     // Along the floor, as if the corner were not there.
     engine.tick(Vector2::new(-1.0, -4.0)).unwrap();
     let exact = rest.position + Vector2::new(-0.03 * 0.03 / 2.0, 0.0);
     assert!((engine.ball().position - exact).norm() < 1.0e-15);
-    assert_eq!(engine.state().contacts.iter().count(), 1);
+    assert_eq!(engine.state().contacts().iter().count(), 1);
 }
 
 #[test]

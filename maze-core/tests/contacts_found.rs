@@ -24,7 +24,7 @@ fn a_ball_that_an_acceleration_all_but_lifts_off_and_brakes_stays_on_its_arc() {
                 // Until it rolls around the corner.
                 let contact = (0..100).find_map(|_| {
                     engine.tick(Vector2::new(0.0, -4.0)).unwrap();
-                    engine.state().contacts.iter().next().filter(|contact| contact.normal.x != 0.0)
+                    engine.state().contacts().iter().next().filter(|contact| contact.normal.x != 0.0)
                 });
                 let Some(contact) = contact else { continue };
                 let velocity = engine.ball().velocity;

@@ -3,7 +3,8 @@
 
 mod noise;
 
-use maze_core::time_of_impact::{self, Path};
+use maze_core::Path;
+use maze_core::time_of_impact;
 use nalgebra::Vector2;
 use noise::Noise;
 use num_rational::BigRational as Exact;

@@ -26,7 +26,7 @@ fn a_tick_of_either_engine_allocates_nothing() {
     let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
     let (planes, spec, ball) = (maze.planes.clone(), BallSpec::default(), Ball::at(maze.start));
     assert_eq!(n_allocations(Continuous::new(planes.clone(), spec, ball, 0.03).unwrap()), 0);
-    assert_eq!(n_allocations(Published::new(planes, spec, ball).unwrap()), 0);
+    assert_eq!(n_allocations(Published::new(planes, spec, ball, Published::TICK_S).unwrap()), 0);
     // The counter does count.
     assert!(0 < allocation_counter::measure(|| drop(std::hint::black_box(vec![1_u8; 100]))).count_total);
 }

@@ -10,13 +10,17 @@
     reason = "the truth that a test compares with may be computed in any way"
 )]
 
-use maze_core::time_of_impact::{self, Feature, Path};
-use maze_core::{Facing, Plane, SortedPlanes, contact};
+use maze_core::time_of_impact;
+use maze_core::{Facing, Feature, Path, Plane, SortedPlanes, Sweep, SweepQuery, contact, sweep};
 use nalgebra::Vector2;
 use proptest::prelude::*;
 
 fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
     Plane { facing, offset, start, end }
+}
+
+fn query(path: &Path, radius: f64, until_s: f64) -> SweepQuery {
+    SweepQuery::new(*path, radius, until_s).unwrap()
 }
 
 #[test]
@@ -32,9 +36,9 @@ fn of_two_touches_at_the_very_start_the_one_that_is_approached_faster_is_found()
     ] {
         let [velocity, acceleration] = [velocity, acceleration].map(|[x, y]| Vector2::new(x, y));
         let path = Path { position: Vector2::new(0.35, 0.35), velocity, acceleration };
-        let first = time_of_impact::first(&planes, &path, 0.35, 0.03, None);
-        assert_eq!(first, time_of_impact::first_scan(&planes, &path, 0.35, 0.03, None));
-        assert!(matches!(first.unwrap().touched, Feature::Face(face) if face.facing == facing));
+        let first = sweep::first_impact(&planes, &query(&path, 0.35, 0.03));
+        assert_eq!(first, sweep::first_impact_scan(&planes, &query(&path, 0.35, 0.03)));
+        assert!(matches!(first.unwrap().feature, Feature::Face(face) if face.facing == facing));
     }
 }
 
@@ -47,7 +51,7 @@ fn a_corner_is_met_by_a_ball_that_starts_too_slowly_for_squares() {
         acceleration: Vector2::new(10.0, 0.0),
     };
     let truth = time_of_impact::corner(&path, 0.35, Vector2::new(3.0, -0.1), 1.0);
-    assert_eq!(time_of_impact::first(&planes, &path, 0.35, 1.0, None).map(|impact| impact.time_s), truth);
+    assert_eq!(sweep::first_impact(&planes, &query(&path, 0.35, 1.0)).map(|impact| impact.time_s), truth);
     assert!(truth.is_some());
 }
 
@@ -141,10 +145,10 @@ proptest! {
         // A path that starts inside a wall has no first touch from outside.
         let overlaps = |plane: &Plane| contact::find(path.position, radius, plane).is_some();
         prop_assume!(!plan.is_inside(path.position) && !plan.faces().iter().any(overlaps));
-        let truth = time_of_impact::first_scan(&sorted, &path, radius, until_s, None);
-        prop_assert_eq!(time_of_impact::first(&sorted, &path, radius, until_s, None), truth);
+        let truth = sweep::first_impact_scan(&sorted, &query(&path, radius, until_s));
+        prop_assert_eq!(sweep::first_impact(&sorted, &query(&path, radius, until_s)), truth);
         prop_assert!(truth.is_none_or(|impact| (0.0..=until_s).contains(&impact.time_s)), "{:?}", truth);
-        prop_assert_eq!(time_of_impact::first(&sorted.clone().without_directories(), &path, radius, until_s, None), truth);
+        prop_assert_eq!(sweep::first_impact(&sorted.clone().without_directories(), &query(&path, radius, until_s)), truth);
         prop_assert_eq!(truth.map(|impact| impact.time_s), earliest(&sorted, &path, radius, until_s));
     }
 
@@ -163,8 +167,8 @@ proptest! {
         });
         let sorted = SortedPlanes::new(sides).unwrap();
         prop_assume!(sorted.planes_within(path.position, radius).next().is_none());
-        let truth = time_of_impact::first_scan(&sorted, &path, radius, 0.5, None);
-        prop_assert_eq!(time_of_impact::first(&sorted, &path, radius, 0.5, None), truth);
+        let truth = sweep::first_impact_scan(&sorted, &query(&path, radius, 0.5));
+        prop_assert_eq!(sweep::first_impact(&sorted, &query(&path, radius, 0.5)), truth);
         prop_assert_eq!(truth.map(|impact| impact.time_s), earliest(&sorted, &path, radius, 0.5));
     }
 
@@ -203,7 +207,7 @@ fn faces_and_corners_of_a_scene_are_told_apart() {
         velocity: Vector2::new(1.0, 0.0),
         acceleration: Vector2::zeros(),
     };
-    let hit = |y| time_of_impact::first(&planes, &towards(y), 0.25, 9.0, None).map(|impact| impact.touched);
+    let hit = |y| sweep::first_impact(&planes, &query(&towards(y), 0.25, 9.0)).map(|impact| impact.feature);
     assert!(matches!(hit(0.5), Some(Feature::Face(face)) if face.facing == Facing::MinusX));
     assert_eq!(hit(1.1), Some(Feature::Point(Vector2::new(0.0, 1.0))));
     assert_eq!(hit(1.3), None);
@@ -218,8 +222,8 @@ fn a_wall_without_thickness_is_hit_on_its_end() {
         velocity: Vector2::new(0.0, -1.0),
         acceleration: Vector2::zeros(),
     };
-    let impact = time_of_impact::first(&planes, &down, 0.25, 9.0, None).unwrap();
-    assert_eq!((impact.time_s, impact.touched), (1.75, Feature::Point(Vector2::new(0.0, 1.0))));
+    let impact = sweep::first_impact(&planes, &query(&down, 0.25, 9.0)).unwrap();
+    assert_eq!((impact.time_s, impact.feature), (1.75, Feature::Point(Vector2::new(0.0, 1.0))));
 }
 
 #[test]
@@ -234,4 +238,60 @@ fn a_ball_that_stands_on_a_corner_and_is_pressed_onto_it_does_not_sink_in() {
     let point = Vector2::new(3.699_999_999_999_999_3, 2.5);
     let time_s = time_of_impact::corner(&path, 0.483_449_553_882_032_6, point, 0.03).unwrap();
     assert!(time_s < 1.0e-7, "{time_s}");
+}
+
+#[test]
+fn a_sweep_tells_a_hit_an_overlap_and_a_free_path() {
+    let unit_block = [
+        plane(Facing::MinusX, 0.0, 0.0, 1.0),
+        plane(Facing::PlusX, 1.0, 0.0, 1.0),
+        plane(Facing::MinusY, 0.0, 0.0, 1.0),
+        plane(Facing::PlusY, 1.0, 0.0, 1.0),
+    ];
+    let planes = SortedPlanes::new(unit_block).unwrap();
+    let sweep = |from: [f64; 2], velocity: [f64; 2]| {
+        let path = Path { position: from.into(), velocity: velocity.into(), acceleration: Vector2::zeros() };
+        planes.sweep(&query(&path, 0.25, 9.0))
+    };
+    assert_eq!(sweep([-2.0, 1.3], [1.0, 0.0]), Sweep::Free);
+    let Sweep::Hit { time_s, point, normal, wall, .. } = sweep([-2.0, 0.5], [1.0, 0.0]) else {
+        panic!("a wall is in the way");
+    };
+    assert_eq!((time_s, point, normal), (1.75, Vector2::new(0.0, 0.5), -Vector2::x()));
+    assert_eq!(wall, unit_block[0]);
+    // The upper left corner: of the two faces that end there, the first in the order of facings is named.
+    let Sweep::Hit { point, wall, feature, .. } = sweep([-0.1, 3.0], [0.0, -1.0]) else {
+        panic!("a corner is in the way");
+    };
+    assert_eq!((point, feature), (Vector2::new(0.0, 1.0), Feature::Point(Vector2::new(0.0, 1.0))));
+    assert_eq!(wall, unit_block[0]);
+    let Sweep::Overlaps { wall, depth, .. } = sweep([-0.2, 0.5], [1.0, 0.0]) else {
+        panic!("it starts in the wall");
+    };
+    assert!(wall == unit_block[0] && (depth - 0.05).abs() < 1.0e-15);
+    // At the radius it touches, and does not overlap.
+    assert!(matches!(sweep([-0.25, 0.5], [1.0, 0.0]), Sweep::Hit { time_s: 0.0, .. }));
+    assert_eq!(sweep([-0.25, 0.5], [-1.0, 0.0]), Sweep::Free);
+}
+
+#[test]
+fn a_query_refuses_what_is_no_circle_on_a_path() {
+    let still =
+        Path { position: Vector2::zeros(), velocity: Vector2::zeros(), acceleration: Vector2::zeros() };
+    let bad = [f64::NAN, f64::INFINITY, -1.0];
+    for radius in bad.into_iter().chain([0.0, 1.0e200]) {
+        assert!(SweepQuery::new(still, radius, 1.0).is_err(), "radius {radius}");
+    }
+    for until_s in bad {
+        assert!(SweepQuery::new(still, 1.0, until_s).is_err(), "until {until_s}");
+    }
+    for value in [f64::NAN, f64::INFINITY, 1.0e200] {
+        for which in 0..6 {
+            let mut path = still;
+            [&mut path.position, &mut path.velocity, &mut path.acceleration][which / 2][which % 2] = value;
+            let error = SweepQuery::new(path, 1.0, 1.0).unwrap_err();
+            assert_eq!(error.to_string(), "the path of the circle: expected a finite number");
+        }
+    }
+    assert!(SweepQuery::new(still, 1.0, 0.0).is_ok());
 }

@@ -8,7 +8,7 @@ mod noise;
 
 use images::{Image, MIRRORED, TURNED};
 use irregular::{Scene, depth, rounding};
-use maze_core::time_of_impact::Path;
+use maze_core::Path;
 use maze_core::{Ball, BallSpec, Continuous, Engine, Hit, Observer, Plane, Radius, SortedPlanes, Tick};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -78,7 +78,7 @@ impl Observer for Stretches {
         self.add([path.position, path.at(duration_s)], duration_s);
     }
 
-    fn roll(&mut self, arc: &maze_core::engine::RolledArc, duration_s: f64) {
+    fn roll(&mut self, arc: &maze_core::RolledArc, duration_s: f64) {
         self.add([arc.from, arc.to].map(|normal| arc.point + normal * arc.radius), duration_s);
     }
 
@@ -146,7 +146,7 @@ impl Scaled {
             let Some(scene) = Scene::new(seed) else { continue };
             let (mut one, mut other) = (engine(&scene), engine(&self.of(&scene)));
             for (n, pull) in scene.pulls(seed).take(300).enumerate() {
-                let state = one.state();
+                let state = one.state().clone();
                 let tick = one.tick(pull).unwrap();
                 let of_image = other.tick((self.image.point)(pull)).unwrap();
                 let image = Tick {

@@ -86,7 +86,7 @@ const FINE_TICK: f64 = 0.0011;
 const EXACT: f64 = 1.0e-9;
 
 /// The published engine walks fast ticks in steps of this (units).
-const SUBSTEP: f64 = maze_core::engine::published::SUBSTEP;
+const SUBSTEP: f64 = maze_core::engine::SUBSTEP;
 
 /// Of the ball in every named scene (units).
 const RADIUS: f64 = 0.25;

@@ -1,8 +1,8 @@
 //! The engines by name, and how each is set up for a scene.
 
-use crate::engine::{ClosedForm, PacedPublished, RapierEngine, RollingEngine, Walls};
+use crate::engine::{ClosedForm, RapierEngine, RollingEngine, Walls};
 use crate::scene::Stage;
-use maze_core::{Continuous, Engine, OutOfRange};
+use maze_core::{Continuous, Engine, OutOfRange, Published};
 use serde::{Deserialize, Serialize};
 
 /// An engine of the cross-check.
@@ -87,7 +87,7 @@ pub fn build(
             None => return Ok(None),
         },
         Contender::Continuous => Box::new(Continuous::new(planes, spec, ball, tick_s)?),
-        Contender::Published => Box::new(PacedPublished::new(planes, spec, ball, tick_s)?),
+        Contender::Published => Box::new(Published::new(planes, spec, ball, tick_s)?),
         Contender::RapierCuboids => Box::new(rapier(Walls::Cuboids)?),
         Contender::RapierMesh => Box::new(rapier(Walls::TriangleMesh)?),
         Contender::RapierRolling => Box::new(RollingEngine::new(board, spec, ball, tick_s)?),

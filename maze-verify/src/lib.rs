@@ -33,6 +33,6 @@ pub mod scene;
 pub use board::{Board, WallMesh};
 #[cfg(feature = "report")]
 pub use contender::{Build, Contender, build};
-pub use engine::{ClosedForm, Motion, PacedPublished, RapierEngine, RollingEngine, Stretch, Walls};
+pub use engine::{ClosedForm, Motion, RapierEngine, RollingEngine, Stretch, Walls};
 #[cfg(feature = "report")]
 pub use run::{RunError, run};

@@ -194,11 +194,8 @@ impl Engine for FacesOnly {
     ) -> Result<Tick, OutOfRange> {
         let mut left_s = self.tick_s;
         loop {
-            let path = time_of_impact::Path {
-                position: self.ball.position,
-                velocity: self.ball.velocity,
-                acceleration,
-            };
+            let path =
+                maze_core::Path { position: self.ball.position, velocity: self.ball.velocity, acceleration };
             let hits = self.planes.iter().filter_map(|plane| {
                 Some((time_of_impact::face(&path, self.spec.radius.units(), plane)?, plane.facing.axis()))
             });

@@ -16,7 +16,7 @@ fn ball() -> Ball {
 fn published() -> Published {
     let face = Plane { facing: Facing::MinusX, offset: WALL.low.x, start: WALL.low.y, end: WALL.high.y };
     let planes = Arc::new(SortedPlanes::new([face]).unwrap());
-    Published::new(planes, BallSpec::default(), ball()).unwrap()
+    Published::new(planes, BallSpec::default(), ball(), Published::TICK_S).unwrap()
 }
 
 fn rapier() -> RapierEngine {

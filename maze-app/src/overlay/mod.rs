@@ -5,9 +5,8 @@ mod table;
 
 use crate::game::{Game, to_f32};
 use crate::ui::to_points;
-use maze_core::time_of_impact::Path;
 use maze_core::trace::{self, GroupVisit, SearchTrace};
-use maze_core::{Facing, Hit, Plane, contact, gravity};
+use maze_core::{Facing, Hit, Path, Plane, SweepQuery, contact, gravity};
 use maze_render::Scene;
 use nalgebra::{Point3, Vector2, Vector3};
 use pen::Pen;
@@ -285,7 +284,8 @@ impl<'a> Drawing<'a> {
         let (planes, tick_s) = (&self.game.maze().planes, self.game.tick_s());
         let ball = self.game.ball();
         let path = Path { position: ball.position, velocity: ball.velocity, acceleration: self.acceleration };
-        let trace = trace::search(planes, &path, self.radius, tick_s);
+        let Ok(query) = SweepQuery::new(path, self.radius, tick_s) else { return };
+        let trace = trace::search(planes, &query);
         self.search_in_maze(&trace, &path);
         // What there is to see: a plane that was handed over, a row in reach, or else the first group.
         let groups = &trace.groups;

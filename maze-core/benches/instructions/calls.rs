@@ -3,9 +3,10 @@
 #[path = "../../tests/noise/mod.rs"]
 mod noise;
 
-use maze_core::time_of_impact::{self, Path};
+use maze_core::sweep;
 use maze_core::{
-    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Maze, Plane, Published, SortedPlanes,
+    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Maze, Path, Plane, Published,
+    SortedPlanes, SweepQuery,
 };
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
@@ -25,8 +26,8 @@ type Prepare = fn() -> Result<Round, Box<dyn Error>>;
 
 /// Every call that is counted, by name.
 pub(crate) const CALLS: [(&str, Prepare); 7] = [
-    ("time_of_impact::first, 0.1 corridors", || first(0.1)),
-    ("time_of_impact::first, 10 corridors", || first(10.0)),
+    ("sweep::first_impact, 0.1 corridors", || first_impact(0.1)),
+    ("sweep::first_impact, 10 corridors", || first_impact(10.0)),
     ("Continuous::tick, rolling", || {
         rolling(usual, |engine, pull| {
             let _ = black_box(engine.tick(pull));
@@ -42,7 +43,9 @@ pub(crate) const CALLS: [(&str, Prepare); 7] = [
     }),
     ("Continuous::tick, bouncing", bouncing),
     ("Published::tick, rolling", || {
-        let published = |planes, ball| Ok(Box::new(Published::new(planes, BallSpec::default(), ball)?) as _);
+        let published = |planes, ball| {
+            Ok(Box::new(Published::new(planes, BallSpec::default(), ball, Published::TICK_S)?) as _)
+        };
         rolling(published, |engine, pull| {
             let _ = black_box(engine.tick(pull));
         })
@@ -72,21 +75,22 @@ fn centre(column: u32, row: u32) -> Vector2<f64> {
     Vector2::new(column, row).map(|index| (f64::from(2 * index + 1) - f64::from(SIDE)) * PITCH / 2.0)
 }
 
-/// First hits of balls that start anywhere and move anywhere, `way` units far; a corridor is a unit wide.
-fn first(way: f64) -> Result<Round, Box<dyn Error>> {
+/// First impacts of balls that start anywhere and move anywhere, by `distance` units; a corridor is a unit wide.
+fn first_impact(distance: f64) -> Result<Round, Box<dyn Error>> {
     let (planes, radius) = (planes()?, BallSpec::RADIUS.units());
     let play = extrude::CORRIDOR / 2.0 - radius;
     let mut noise = Noise(7);
     let mut path = |n: u32| Path {
         // Cell after cell in strides that share no factor with their number.
         position: centre(n * 31 % SIDE, n * 31 / SIDE * 37 % SIDE) + noise.vector() * play,
-        velocity: noise.vector().normalize() * way,
+        velocity: noise.vector().normalize() * distance,
         acceleration: Vector2::zeros(),
     };
-    let paths: Vec<Path> = (0..N).map(&mut path).collect();
+    let queries: Vec<SweepQuery> =
+        (0..N).map(|n| SweepQuery::new(path(n), radius, 1.0)).collect::<Result<_, _>>()?;
     let make = move || {
-        for path in &paths {
-            black_box(time_of_impact::first(&planes, black_box(path), radius, 1.0, None));
+        for query in &queries {
+            black_box(sweep::first_impact(&planes, black_box(query)));
         }
     };
     Ok(Round { n_calls: N as usize, make: Box::new(make) })

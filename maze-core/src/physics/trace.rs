@@ -1,24 +1,23 @@
-//! What one search looked at, as data: for pictures of the method (the report's Fig. 5 to 7).
+//! What one search visited, as data: for pictures of the method (the report's Fig. 5 to 7).
 //!
-//! The search itself is [`time_of_impact::first`]'s; only who asks for a trace pays for it.
+//! The search itself is that of [`sweep::first_impact`]; only a traced query pays for the trace.
 
 use crate::physics::sorted_planes::SortedPlanes;
-use crate::physics::time_of_impact::{self, Impact, Path, Visit};
+use crate::physics::sweep::{self, Impact, SweepQuery, Visit};
 use crate::physics::wall::{Facing, Plane};
-use nalgebra::Vector2;
 
-/// One look of a bisection: what is sought stands in `low..=high`, and `mid` is compared with it.
+/// One probe of a bisection: what is sought lies in `low..=high`, and `mid` is compared with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Probe {
     /// First index that is not excluded.
     pub low: usize,
-    /// Index that is looked at.
+    /// Index that is compared.
     pub mid: usize,
     /// Last index that is not excluded, or one past the end.
     pub high: usize,
 }
 
-/// A row that the search looked into.
+/// A row that the search visited.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowVisit {
     /// Index among the rows of the group.
@@ -42,7 +41,7 @@ pub struct GroupVisit {
     pub offsets: [f64; 2],
     /// The bisection for the first row in that range, in the direction of motion.
     pub probes: Vec<Probe>,
-    /// In the order in which they were looked into.
+    /// In the order in which they were visited.
     pub rows: Vec<RowVisit>,
 }
 
@@ -55,13 +54,13 @@ pub struct SearchTrace {
     pub impact: Option<Impact>,
 }
 
-/// [`time_of_impact::first`], and what it looked at.
+/// [`sweep::first_impact`], and what it visited.
 ///
-/// Bisections are shown in full, as the report draws them; the search itself begins each in a directory's bucket and comes
-/// to the same index. Made for pictures: O(n) for each row that is looked into.
-pub fn search(planes: &SortedPlanes, path: &Path, radius: f64, until_s: f64) -> SearchTrace {
+/// Bisections are shown in full, as the report draws them; the search itself starts each in a bucket of an index and finds the same
+/// position. Made for pictures: O(n) for each row that is visited.
+pub fn search(planes: &SortedPlanes, query: &SweepQuery) -> SearchTrace {
     let mut groups: Vec<GroupVisit> = Vec::new();
-    let impact = time_of_impact::search(planes, path, radius, until_s, None, &mut |visit| match visit {
+    let impact = sweep::search(planes, query, &mut |visit| match visit {
         Visit::Group { facing, offsets } => {
             let rows: Vec<f64> = planes.offsets(facing).collect();
             let [low, high] = offsets;
@@ -92,7 +91,7 @@ pub fn search(planes: &SortedPlanes, path: &Path, radius: f64, until_s: f64) -> 
     SearchTrace { groups, impact }
 }
 
-/// The looks of a bisection for the first of `n` indices that is not below.
+/// The probes of a bisection for the first of `n` indices that is not below.
 fn bisection(n: usize, is_below: impl Fn(usize) -> bool) -> Vec<Probe> {
     let (mut low, mut high) = (0, n);
     let mut probes = Vec::new();
@@ -108,16 +107,11 @@ fn bisection(n: usize, is_below: impl Fn(usize) -> bool) -> Vec<Probe> {
     probes
 }
 
-impl Impact {
-    /// The point of the wall that is touched by a circle whose path leads there.
-    pub fn point(&self, path: &Path) -> Vector2<f64> {
-        self.touched.contact_point(path.at(self.time_s))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::physics::time_of_impact::Path;
+    use nalgebra::Vector2;
 
     fn walls() -> SortedPlanes {
         let face = |offset: i32, start: i32| Plane {
@@ -132,14 +126,15 @@ mod tests {
     }
 
     #[test]
-    fn a_trace_shows_the_rows_that_were_looked_into_up_to_the_first_hit() {
+    fn a_trace_shows_the_rows_that_were_visited_up_to_the_first_hit() {
         let path = Path {
             position: Vector2::new(0.0, 8.5),
             velocity: Vector2::new(1.0, 0.0),
             acceleration: Vector2::zeros(),
         };
-        let trace = search(&walls(), &path, 0.25, 100.0);
-        assert_eq!(trace.impact, time_of_impact::first(&walls(), &path, 0.25, 100.0, None));
+        let query = SweepQuery::new(path, 0.25, 100.0).unwrap();
+        let trace = search(&walls(), &query);
+        assert_eq!(trace.impact, sweep::first_impact(&walls(), &query));
         assert_eq!(trace.impact.unwrap().point(&path), Vector2::new(3.0, 8.5));
         // The faces end freely, so all groups are searched; three are empty.
         let group = trace.groups.iter().find(|group| !group.rows.is_empty()).unwrap();
@@ -147,7 +142,7 @@ mod tests {
         let rows: Vec<_> = group.rows.iter().map(|row| (row.row, row.offset, row.planes.len())).collect();
         assert_eq!(rows, [(0, 1.0, 0), (1, 2.0, 0), (2, 3.0, 1)]);
         assert_eq!(group.rows[2].planes[0].start, 8.0);
-        // Nine rows are bisected in four looks at most, the first at the middle one.
+        // Nine rows are bisected in four probes at most, the first at the middle one.
         assert_eq!(group.probes[0], Probe { low: 0, mid: 4, high: 9 });
         assert!(group.probes.len() <= 4 && group.rows.iter().all(|row| row.probes.len() <= 4));
     }

@@ -1,8 +1,8 @@
 //! A run of the game: start, goal, a clock in ticks, and the events that sound and screen react to.
 
 use crate::maze::Maze;
-use crate::physics::engine::Tick;
 use crate::physics::gravity::Tilt;
+use crate::physics::tick::Tick;
 use nalgebra::Vector2;
 
 /// Where a run stands.

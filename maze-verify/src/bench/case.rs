@@ -2,7 +2,7 @@
 
 use super::BenchError;
 use crate::board::Board;
-use maze_core::time_of_impact::Path;
+use maze_core::Path;
 use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, Radius, SortedPlanes};
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
@@ -270,7 +270,7 @@ fn below(rng: &mut ChaCha8Rng, bound: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use maze_core::time_of_impact;
+    use maze_core::{SweepQuery, sweep};
 
     #[test]
     fn the_faces_are_those_of_the_board_and_know_their_corners() {
@@ -307,7 +307,8 @@ mod tests {
         let from = rolled[0].path.position;
         assert!(rolled.iter().any(|query| 1.0 < (query.path.position - from).norm()));
         let touches = |query: &&Query| {
-            time_of_impact::first(case.planes(), &query.path, RADIUS, query.until_s, None).is_some()
+            let query = SweepQuery::new(query.path, RADIUS, query.until_s).unwrap();
+            sweep::first_impact(case.planes(), &query).is_some()
         };
         let n_touches = rolled.iter().filter(touches).count();
         assert!((30..1500).contains(&n_touches), "{n_touches}");

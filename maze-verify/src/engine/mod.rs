@@ -1,12 +1,10 @@
 //! Engines beyond maze-core's, all behind its [`maze_core::Engine`].
 
 mod closed_form;
-mod paced;
 mod rapier;
 mod rolling;
 
 pub use closed_form::{ClosedForm, Motion, Stretch};
-pub use paced::PacedPublished;
 pub use rapier::{RapierEngine, Walls};
 pub use rolling::RollingEngine;
 

@@ -1,135 +1,29 @@
-//! Engines: what moves the ball through one tick.
+//! Engines: different ways to compute the motion of one ball, behind one trait.
 
-pub(crate) mod carlson;
-mod clearing;
-mod collision;
-pub mod continuous;
-pub mod published;
-mod roll;
-mod state;
+mod continuous;
+mod published;
 
 pub use continuous::Continuous;
-pub use published::Published;
-pub use state::{BallState, Contact, Contacts};
+pub use published::{MAX_SUBSTEPS, Published, SUBSTEP};
 
 use crate::physics::ball::{Ball, BallSpec, OutOfRange};
-use crate::physics::time_of_impact::Path;
+use crate::physics::gravity::{self, Tilt};
+use crate::physics::tick::{Hit, Observer, Tick};
 use nalgebra::Vector2;
 
-/// What happened within one tick.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Tick {
-    /// Steps that the tick was walked in; 1 when the ball was slow, and for the exact engine always.
-    pub n_steps: u32,
-    /// Hits. One may leave the velocity as it is: a ball that is set down on a wall meets it at speed 0.
-    pub n_hits: u32,
-    /// Those of them that were corners; always 0 for an engine that knows faces only.
-    pub n_corner_hits: u32,
-    /// Hits after which the ball no longer bounces off the wall; it may still slide along it.
-    pub n_rests: u32,
-    /// Whether the ball was placed inside a wall and was pushed out. Where it has no room an overlap remains, which
-    /// `corrected_overlap` shows in every tick.
-    pub recovered: bool,
-    /// Largest normal speed of a hit (units/s): how loud it was.
-    pub hardest_hit_speed: f64,
-    /// Steps of the published engine that ended with a wall still overlapped, because the bound on contacts was reached.
-    pub n_unresolved: u32,
-    /// Deepest penetration met before push-out (units); for the exact engine only that of a ball that was placed in a wall.
-    pub deepest_penetration: f64,
-    /// Time that was not simulated because a bound was reached (s).
-    pub dropped_s: f64,
-    /// Overlap (units) that the exact engine's check at the end of the tick found, and pushed the ball out of. Not 0 means a
-    /// fault of the engine, or a ball that was placed where it has no room; there some overlap may remain.
-    pub corrected_overlap: f64,
-}
+/// Most ticks of one call of [`Engine::simulate`]: a day of ticks of a millisecond.
+const MAX_SIMULATED_TICKS: f64 = 86_400_000.0;
 
-/// One hit, as the engine saw it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// The point of the wall that was touched.
-    pub point: Vector2<f64>,
-    /// Unit vector along which the ball was pushed out and reflected.
-    pub normal: Vector2<f64>,
-    /// How deep the ball was in the wall (units); 0 for an engine that meets walls exactly.
-    pub penetration: f64,
-    /// Before push-out and reflection.
-    pub before: Ball,
-    /// After both.
-    pub after: Ball,
-}
-
-/// Watches a tick: each stretch of motion and each hit, in the order in which they happen.
+/// A way to compute the motion of one ball.
 ///
-/// A function of a [`Hit`] is an observer that is shown hits alone; `()` is one that is shown nothing. Not shown are a push-out
-/// ([`Tick::recovered`], [`Tick::corrected_overlap`]) and the speed that rolling resistance takes at the end of a tick.
-pub trait Observer {
-    /// The centre moved along a path for a time (s), which may be 0: in flight, along a face (the acceleration is then that along
-    /// it), or at rest (without velocity and acceleration).
-    fn flight(&mut self, path: &Path, duration_s: f64) {
-        let _ = (path, duration_s);
-    }
-
-    /// The centre moved on an arc for a time (s).
-    fn roll(&mut self, arc: &RolledArc, duration_s: f64) {
-        let _ = (arc, duration_s);
-    }
-
-    /// The ball met a wall.
-    fn hit(&mut self, hit: &Hit) {
-        let _ = hit;
-    }
-}
-
-impl Observer for () {}
-
-impl<F: FnMut(&Hit)> Observer for F {
-    fn hit(&mut self, hit: &Hit) {
-        self(hit);
-    }
-}
-
-/// A stretch of rolling around a point: the shorter way from one direction to the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RolledArc {
-    /// The middle of the circle on which the ball's centre moves.
-    pub point: Vector2<f64>,
-    /// Its radius: that of the ball (units).
-    pub radius: f64,
-    /// Unit vector from the point to the centre at the start.
-    pub from: Vector2<f64>,
-    /// The same at the end.
-    pub to: Vector2<f64>,
-}
-
-/// What is noted while a tick is computed: its sums, and its observer.
-struct Log<'a, O: Observer + ?Sized> {
-    tick: Tick,
-    observer: &'a mut O,
-}
-
-impl<O: Observer + ?Sized> Log<'_, O> {
-    /// Counts a hit with this normal speed (units/s).
-    fn note_hit(&mut self, speed: f64, hit: &Hit) {
-        self.tick.n_hits += 1;
-        if self.tick.hardest_hit_speed < speed {
-            self.tick.hardest_hit_speed = speed;
-        }
-        self.observer.hit(hit);
-    }
-
-    /// Remembers a penetration (units) when it is the deepest.
-    fn note_penetration(&mut self, depth: f64) {
-        if self.tick.deepest_penetration < depth {
-            self.tick.deepest_penetration = depth;
-        }
-    }
-}
-
-/// A way to compute the ball's motion.
+/// What holds for every implementor is written here. [`Continuous`] and [`Published`] also give the same bits on every
+/// platform and allocate nothing in a tick; an engine that wraps another library may do neither.
 pub trait Engine {
-    /// Advances by one tick under a constant projected gravity (units/s²), and shows an observer what happens. The ball's
-    /// acceleration, which the observer is shown too, is this times [`BallSpec::rolling`]. An engine that cannot tell shows
-    /// nothing.
+    /// Advances by one tick under a constant projected gravity (units/s²). The ball's acceleration is this times
+    /// [`BallSpec::rolling`].
+    ///
+    /// The observer is shown the hits and the stretches of motion that the engine knows of, in the order in which they happen.
+    /// An engine that cannot tell shows fewer of them, or none. The motion does not depend on the observer.
     ///
     /// # Errors
     /// An acceleration that is not finite, or one that makes the velocity so; the ball stays as it was.
@@ -139,7 +33,7 @@ pub trait Engine {
         observer: &mut dyn Observer,
     ) -> Result<Tick, OutOfRange>;
 
-    /// [`Engine::tick_observed`] that nobody watches.
+    /// [`Engine::tick_observed`] without an observer.
     ///
     /// # Errors
     /// As [`Engine::tick_observed`].
@@ -147,17 +41,46 @@ pub trait Engine {
         self.tick_observed(acceleration, &mut ())
     }
 
+    /// Plays ticks under one tilt of the board for a time (s), rounded to whole ticks, and returns the hits that the engine
+    /// showed. Here [`Hit::time_s`] counts from the start of the call.
+    ///
+    /// # Errors
+    /// A time that is negative or not finite, or more than 86,400,000 ticks; an acceleration that makes the velocity not finite,
+    /// after the ticks that could be played.
+    fn simulate(&mut self, tilt: Tilt, duration_s: f64) -> Result<Vec<Hit>, OutOfRange> {
+        let tick_s = self.tick_s();
+        let wanted = duration_s / tick_s + 0.5;
+        if !(0.0 <= duration_s && wanted <= MAX_SIMULATED_TICKS) {
+            let expected = "seconds, 0 or more, of at most 86,400,000 ticks";
+            return Err(OutOfRange { what: "the time to simulate", expected });
+        }
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "0 <= wanted <= 86,400,000"
+        )]
+        let n_ticks = wanted as u32;
+        let acceleration = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
+        let mut hits = Vec::new();
+        for n in 0..n_ticks {
+            let started_s = f64::from(n) * tick_s;
+            let mut note = |hit: &Hit| hits.push(Hit { time_s: started_s + hit.time_s, ..*hit });
+            self.tick_observed(acceleration, &mut note)?;
+        }
+        Ok(hits)
+    }
+
     /// Where the ball is now.
     fn ball(&self) -> Ball;
 
-    /// Puts the ball somewhere else. It touches nothing until the next tick, which pushes it out of walls that it is in; what it
-    /// lies on it then meets as a hit.
+    /// Puts the ball somewhere else, and forgets what it touched. A ball that is put into a wall is pushed out of it in the ticks
+    /// that follow, as far as the engine can.
     ///
     /// # Errors
     /// A position or velocity that is not finite; the ball stays as it was.
     fn place(&mut self, ball: Ball) -> Result<(), OutOfRange>;
 
-    /// What the ball is made of.
+    /// Radius and material of the ball.
     fn spec(&self) -> &BallSpec;
 
     /// Length of a tick (s).

@@ -1,43 +1,51 @@
 //! The report's method, step for step. Its weaknesses (corners reflect about a face's normal, push-out changes the
 //! energy, the cost grows with the speed) are kept and measured, not hidden.
 
-use super::{Engine, Hit, Log, Observer, Tick};
+use super::Engine;
 use crate::physics::ball::{Ball, BallSpec, OutOfRange};
 use crate::physics::contact::{self, Contact};
 use crate::physics::sorted_planes::SortedPlanes;
+use crate::physics::tick::{Hit, Log, Observer, Tick};
 use crate::physics::wall::Facing;
+use crate::physics::world::check_tick_s;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
 /// Length of one step (units) when a tick would move the ball by more than its radius; the report's value.
 pub const SUBSTEP: f64 = 0.02;
 
-/// Most substeps in a tick: 2000 units, which is 66,000 units/s at the report's tick. What lies beyond is dropped and
+/// Most substeps in a tick: 2000 units, which is 66,000 units/s at the report's tick length. What lies beyond is dropped and
 /// reported in [`Tick::dropped_s`].
 pub const MAX_SUBSTEPS: u32 = 100_000;
 
 /// Most contacts resolved in one step: one a facing group, twice, because a push-out may lead into another wall.
 const MAX_CONTACTS_PER_STEP: u32 = 4;
 
-/// The report's engine: explicit Euler, then closest point, penetration, push-out and reflection.
+/// The report's engine: explicit Euler, then closest point, penetration, push-out and reflection. The same inputs give the same bits
+/// on every platform.
 #[derive(Clone, Debug)]
 pub struct Published {
     planes: Arc<SortedPlanes>,
     spec: BallSpec,
     ball: Ball,
+    tick_s: f64,
 }
 
 impl Published {
     /// The report's tick length (s).
     pub const TICK_S: f64 = 0.03;
 
-    /// A ball among planes.
+    /// A ball among planes; `tick_s` is the length of a tick (s), the report's is [`Published::TICK_S`].
     ///
     /// # Errors
-    /// A position or velocity that is not finite; a restitution or rolling factor outside 0 to 1; a negative or infinite
-    /// rolling resistance.
-    pub fn new(planes: Arc<SortedPlanes>, spec: BallSpec, ball: Ball) -> Result<Self, OutOfRange> {
-        Ok(Self { planes, spec: spec.checked()?, ball: ball.checked()? })
+    /// What [`crate::World::new`] and [`crate::BallState::new`] refuse.
+    pub fn new(
+        planes: Arc<SortedPlanes>,
+        spec: BallSpec,
+        ball: Ball,
+        tick_s: f64,
+    ) -> Result<Self, OutOfRange> {
+        Ok(Self { planes, spec: spec.checked()?, ball: ball.checked()?, tick_s: check_tick_s(tick_s)? })
     }
 
     /// The contact to resolve next: of the first overlap in each opposing group, the nearer one.
@@ -49,15 +57,15 @@ impl Published {
             .min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 
-    /// Moves by `step_s`, then resolves what is overlapped.
-    fn step<O: Observer + ?Sized>(&mut self, step_s: f64, log: &mut Log<O>) {
+    /// Moves by `step_s` until `time_s` within the tick, then resolves what is overlapped.
+    fn step<O: Observer + ?Sized>(&mut self, step_s: f64, time_s: f64, log: &mut Log<O>) {
         self.ball.position += self.ball.velocity * step_s;
         for _ in 0..MAX_CONTACTS_PER_STEP {
             let Some(contact) = self.next_contact() else { return };
             let (facing, before) = (contact.plane.facing, self.ball);
             self.ball = contact.respond(before, &self.spec);
             let Contact { closest: point, penetration, .. } = contact;
-            let hit = Hit { point, normal: facing.normal(), penetration, before, after: self.ball };
+            let hit = Hit { time_s, point, normal: facing.normal(), penetration, before, after: self.ball };
             log.note_hit(before.velocity[facing.axis()].abs(), &hit);
             log.note_penetration(penetration);
         }
@@ -65,7 +73,7 @@ impl Published {
     }
 }
 
-/// In how many equal steps a displacement is walked, and the part of the tick that is left out (0 unless bounded).
+/// In how many equal steps a displacement is divided, and the fraction of the tick that is left out (0 unless bounded).
 fn steps_for(displacement: f64, radius: f64) -> (u32, f64) {
     if displacement <= radius {
         return (1, 0.0);
@@ -86,7 +94,7 @@ impl Published {
         acceleration: Vector2<f64>,
         observer: &mut O,
     ) -> Result<Tick, OutOfRange> {
-        let velocity = self.ball.velocity + acceleration * (self.spec.rolling * Self::TICK_S);
+        let velocity = self.ball.velocity + acceleration * (self.spec.rolling * self.tick_s);
         let is_finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
         if !is_finite(acceleration) {
             return Err(OutOfRange::not_finite("the acceleration"));
@@ -94,23 +102,23 @@ impl Published {
         if !is_finite(velocity) {
             return Err(OutOfRange::not_finite("the ball's velocity"));
         }
-        if !is_finite(self.ball.position + velocity * Self::TICK_S) {
+        if !is_finite(self.ball.position + velocity * self.tick_s) {
             return Err(OutOfRange::not_finite("the ball's position"));
         }
-        if self.spec.holds(self.ball.velocity, acceleration * self.spec.rolling, Self::TICK_S) {
+        if self.spec.holds(self.ball.velocity, acceleration * self.spec.rolling, self.tick_s) {
             self.ball.velocity = Vector2::zeros();
             return Ok(Tick { n_steps: 1, ..Tick::default() });
         }
         self.ball.velocity = velocity;
-        let displacement = velocity.norm() * Self::TICK_S;
+        let displacement = velocity.norm() * self.tick_s;
         let (n_steps, dropped) = steps_for(displacement, self.spec.radius.units());
-        let tick = Tick { n_steps, dropped_s: dropped * Self::TICK_S, ..Tick::default() };
-        let step_s = (Self::TICK_S - tick.dropped_s) / f64::from(n_steps);
+        let tick = Tick { n_steps, dropped_s: dropped * self.tick_s, ..Tick::default() };
+        let step_s = (self.tick_s - tick.dropped_s) / f64::from(n_steps);
         let mut log = Log { tick, observer };
-        for _ in 0..n_steps {
-            self.step(step_s, &mut log);
+        for n in 1..=n_steps {
+            self.step(step_s, f64::from(n) * step_s, &mut log);
         }
-        self.ball.velocity = self.spec.slowed(self.ball.velocity, Self::TICK_S);
+        self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(log.tick)
     }
 }
@@ -142,7 +150,7 @@ impl Engine for Published {
     }
 
     fn tick_s(&self) -> f64 {
-        Self::TICK_S
+        self.tick_s
     }
 }
 
@@ -153,7 +161,7 @@ mod tests {
 
     fn engine(planes: &[Plane], ball: Ball) -> Published {
         let planes = Arc::new(SortedPlanes::new(planes.iter().copied()).unwrap());
-        Published::new(planes, BallSpec::default(), ball).unwrap()
+        Published::new(planes, BallSpec::default(), ball, Published::TICK_S).unwrap()
     }
 
     fn ball(x: f64, y: f64, vx: f64, vy: f64) -> Ball {
@@ -174,7 +182,7 @@ mod tests {
     fn rolling_sphere_gets_five_sevenths_of_the_acceleration() {
         let planes = Arc::new(SortedPlanes::new([]).unwrap());
         let spec = BallSpec { rolling: BallSpec::ROLLING_SPHERE, ..BallSpec::default() };
-        let mut engine = Published::new(planes, spec, Ball::default()).unwrap();
+        let mut engine = Published::new(planes, spec, Ball::default(), Published::TICK_S).unwrap();
         engine.tick(Vector2::new(7.0, 0.0)).unwrap();
         assert!((engine.ball().velocity.x - 5.0 * 0.03).abs() < 1.0e-15);
     }
@@ -268,7 +276,7 @@ mod tests {
         let planes = Arc::new(SortedPlanes::new([]).unwrap());
         for restitution in [-0.1, 1.1, f64::NAN] {
             let spec = BallSpec { restitution, ..BallSpec::default() };
-            let error = Published::new(planes.clone(), spec, Ball::default()).unwrap_err();
+            let error = Published::new(planes.clone(), spec, Ball::default(), Published::TICK_S).unwrap_err();
             assert_eq!(error.to_string(), "the restitution: expected a part, 0 to 1");
         }
     }
@@ -283,5 +291,16 @@ mod tests {
         }
         assert!(engine.place(ball(0.0, 0.0, 0.0, f64::NAN)).is_err());
         assert_eq!(engine.ball(), ball(1.0, 2.0, 3.0, 4.0));
+    }
+
+    #[test]
+    fn half_a_tick_moves_half_as_far() {
+        let planes = Arc::new(SortedPlanes::new([]).unwrap());
+        let ball = ball(0.0, 0.0, 2.0, 0.0);
+        let mut engine = Published::new(planes, BallSpec::default(), ball, 0.015).unwrap();
+        engine.tick(Vector2::new(0.0, 4.0)).unwrap();
+        let after = engine.ball();
+        assert!((after.velocity - Vector2::new(2.0, 0.06)).norm() < 1.0e-15);
+        assert!((after.position - Vector2::new(0.03, 0.0009)).norm() < 1.0e-15);
     }
 }

@@ -6,7 +6,8 @@
 
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::{PITCH, RADIUS};
-use maze_core::time_of_impact::{self, Path};
+use maze_core::Path;
+use maze_core::time_of_impact;
 use maze_core::{Facing, Plane, extrude};
 use nalgebra::Vector2;
 

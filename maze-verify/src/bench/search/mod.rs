@@ -87,7 +87,7 @@ pub const CONTENDERS: [Contender; 13] = {
             planes::sorted,
         ),
         contender("bisection alone", "the same without directories", Exact, planes::without_directories),
-        contender("naive scan", "maze-core: impact::first_scan, every plane", Exact, planes::scan)
+        contender("naive scan", "maze-core: sweep::first_impact_scan, every plane", Exact, planes::scan)
             .up_to(2_000),
         contender(
             "bit grid",

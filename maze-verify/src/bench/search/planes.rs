@@ -2,10 +2,9 @@
 
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::RADIUS;
-use maze_core::engine::published::SUBSTEP;
-use maze_core::time_of_impact::{self, Impact, Path};
-use maze_core::{Facing, SortedPlanes};
-use nalgebra::Vector2;
+use maze_core::engine::SUBSTEP;
+use maze_core::sweep::{self, Impact};
+use maze_core::{Facing, SortedPlanes, SweepQuery};
 use std::sync::Arc;
 
 /// A search that gives the first impact.
@@ -14,9 +13,11 @@ struct Planes<F> {
     find: F,
 }
 
-impl<F: Fn(&SortedPlanes, &Path, f64, f64, Option<Vector2<f64>>) -> Option<Impact>> Search for Planes<F> {
+impl<F: Fn(&SortedPlanes, &SweepQuery) -> Option<Impact>> Search for Planes<F> {
     fn first_touch(&mut self, query: &Query) -> Option<f64> {
-        (self.find)(&self.planes, &query.path, RADIUS, query.until_s, None).map(|impact| impact.time_s)
+        // As a user of the library asks: the numbers are checked in every query.
+        let query = SweepQuery::new(query.path, RADIUS, query.until_s).ok()?;
+        (self.find)(&self.planes, &query).map(|impact| impact.time_s)
     }
 }
 
@@ -26,18 +27,18 @@ fn planes(case: &Case) -> Result<Arc<SortedPlanes>, BenchError> {
 
 /// The search that the game uses.
 pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: planes(case)?, find: time_of_impact::first }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: sweep::first_impact }))
 }
 
 /// The same by bisection alone.
 pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
     let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_directories();
-    Ok(Box::new(Planes { planes: Arc::new(planes), find: time_of_impact::first }))
+    Ok(Box::new(Planes { planes: Arc::new(planes), find: sweep::first_impact }))
 }
 
 /// Every plane of every group.
 pub(super) fn scan(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    Ok(Box::new(Planes { planes: planes(case)?, find: time_of_impact::first_scan }))
+    Ok(Box::new(Planes { planes: planes(case)?, find: sweep::first_impact_scan }))
 }
 
 /// What the report's engine asks: an overlap at the end of a step, or after every 0.02 units of one longer than the radius.

@@ -126,7 +126,7 @@ pub(super) fn without_directories(course: &Course) -> Result<Box<dyn Mover>, Ben
 
 /// The report's engine.
 pub(super) fn published(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
-    engines(course, 1, |ball| Published::new(Arc::clone(course.case.planes()), course.spec, ball))
+    engines(course, 1, |ball| Published::new(Arc::clone(course.case.planes()), course.spec, ball, TICK_S))
 }
 
 /// rapier's step, without a look at what happened in it.

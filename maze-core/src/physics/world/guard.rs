@@ -1,25 +1,26 @@
 //! What puts a ball outside of walls that it is in: at the start, where it was placed there, and at the end of a tick, where
 //! that would be a fault of the engine.
 
-use super::super::{Log, Observer};
-use super::Continuous;
+use super::events::Events;
 use crate::physics::contact;
+use crate::physics::tick::Observer;
 use crate::physics::tolerance;
 use crate::physics::wall::Plane;
 use nalgebra::Vector2;
 
 /// Most walls a ball that starts inside of them is pushed out of, one after the other.
-const MAX_RECOVERIES: u32 = 16;
+const MAX_PUSH_OUTS: u32 = 16;
 
-impl Continuous {
+impl<O: Observer + ?Sized> Events<'_, O> {
     /// Puts a ball that starts inside a wall outside of it, out of the deepest overlap first; returns the deepest (units).
     pub(super) fn depenetrate(&mut self) -> f64 {
+        let radius = self.world.radius();
         let mut deepest_of_all = 0.0;
-        for _ in 0..MAX_RECOVERIES {
-            let centre = self.ball.position;
-            let radius = self.radius();
+        for _ in 0..MAX_PUSH_OUTS {
+            let centre = self.state.ball.position;
             let touch = tolerance::touch(radius, centre);
             let deepest = self
+                .world
                 .planes
                 .planes_within(centre, radius)
                 .filter_map(|plane| contact::find(centre, radius, &plane))
@@ -30,7 +31,7 @@ impl Continuous {
             let front = (centre[facing.axis()] - contact.plane.offset) * facing.sign();
             // In front, away from the closest point; behind, through the face.
             let away = (centre - contact.closest).try_normalize(0.0).filter(|_| 0.0 <= front);
-            self.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
+            self.state.ball.position = contact.closest + away.unwrap_or(facing.normal()) * radius;
             if deepest_of_all < contact.penetration {
                 deepest_of_all = contact.penetration;
             }
@@ -41,14 +42,14 @@ impl Continuous {
     /// Checks the state that is about to be returned by a plain query that knows nothing of contacts and events: a ball that
     /// came from the front (it was at `from` at the start of the tick), and is deeper in a face than it may be, is put outside, and
     /// that is reported.
-    pub(super) fn guard<O: Observer + ?Sized>(&mut self, from: Vector2<f64>, log: &mut Log<O>) {
-        let (centre, radius) = (self.ball.position, self.radius());
+    pub(super) fn guard(&mut self, from: Vector2<f64>) {
+        let (centre, radius) = (self.state.ball.position, self.world.radius());
         let within = radius - tolerance::overlap(radius, centre);
-        let velocity = self.ball.velocity;
+        let velocity = self.state.ball.velocity;
         let is_fault = |plane: &Plane| !passes_from_behind(plane, [from, centre], velocity, radius);
-        if self.planes.any_within(centre, within, is_fault) {
-            log.tick.corrected_overlap = self.depenetrate();
-            self.contacts.clear();
+        if self.world.planes.any_within(centre, within, is_fault) {
+            self.log.tick.corrected_overlap = self.depenetrate();
+            self.state.contacts.clear();
         }
     }
 }
@@ -80,39 +81,41 @@ fn passes_from_behind(
 mod tests {
     use super::*;
     use crate::physics::ball::{Ball, BallSpec};
-    use crate::physics::engine::{Engine, Tick};
     use crate::physics::sorted_planes::SortedPlanes;
     use crate::physics::wall::Facing;
+    use crate::physics::world::{BallState, World};
     use std::sync::Arc;
 
     /// A ball at rest on a floor, with a wall beside it.
-    fn resting() -> Continuous {
+    fn resting() -> (World, BallState) {
         let planes = [
             Plane { facing: Facing::PlusY, offset: 0.0, start: -5.0, end: 5.0 },
             Plane { facing: Facing::PlusX, offset: -0.35, start: 0.0, end: 5.0 },
         ];
         let planes = Arc::new(SortedPlanes::new(planes).unwrap());
-        let start = Ball::at(Vector2::new(0.0, 0.35));
-        let mut engine = Continuous::new(planes, BallSpec::default(), start, 0.03).unwrap().without_cache();
-        engine.tick(Vector2::new(-1.0, -4.0)).unwrap();
-        engine
+        let world = World::new(planes, BallSpec::default(), 0.03).unwrap().without_cache();
+        let mut state = BallState::new(Ball::at(Vector2::new(0.0, 0.35))).unwrap();
+        world.tick(&mut state, Vector2::new(-1.0, -4.0), &mut ()).unwrap();
+        (world, state)
     }
 
     #[test]
     fn a_ball_that_a_fault_has_put_into_a_wall_is_put_outside_and_that_is_reported() {
-        let (pull, rest) = (Vector2::new(-1.0, -4.0), Vector2::new(0.0, 0.35));
+        let (acceleration, rest) = (Vector2::new(-1.0, -4.0), Vector2::new(0.0, 0.35));
         for depth in [0.0, 1.0e-10, 1.0e-8, 1.0e-3, 0.2] {
-            let mut engine = resting();
+            let (world, mut state) = resting();
             // As no tick does it.
-            engine.ball.position.x -= depth;
-            let mut log = Log { tick: Tick::default(), observer: &mut () };
-            engine.guard(rest, &mut log);
+            state.ball.position.x -= depth;
+            let mut nobody = ();
+            let mut events = Events::new(&world, &mut state, acceleration, &mut nobody);
+            events.guard(rest);
+            let tick = events.log.tick;
             let found = if depth < 1.0e-9 { 0.0 } else { depth };
-            assert!((log.tick.corrected_overlap - found).abs() < 1.0e-12, "{depth}: {:?}", log.tick);
-            assert!((engine.ball().position - rest).norm() <= depth - found + 1.0e-12);
+            assert!((tick.corrected_overlap - found).abs() < 1.0e-12, "{depth}: {tick:?}");
+            assert!((state.ball.position - rest).norm() <= depth - found + 1.0e-12);
             // And the ball rests again.
-            assert_eq!(engine.tick(pull).unwrap().corrected_overlap, 0.0);
-            assert!((engine.ball().position - rest).norm() <= depth - found + 1.0e-12);
+            assert_eq!(world.tick(&mut state, acceleration, &mut ()).unwrap().corrected_overlap, 0.0);
+            assert!((state.ball.position - rest).norm() <= depth - found + 1.0e-12);
         }
     }
 
@@ -124,13 +127,14 @@ mod tests {
         let planes = Arc::new(SortedPlanes::new([floor, wall]).unwrap());
         for speed in [2.0, 20.0] {
             let ball = Ball { position: Vector2::new(0.0, -1.0), velocity: Vector2::new(0.0, speed) };
-            let mut engine =
-                Continuous::new(planes.clone(), BallSpec::default(), ball, 0.003).unwrap().without_cache();
+            let world = World::new(planes.clone(), BallSpec::default(), 0.003).unwrap().without_cache();
+            let mut state = BallState::new(ball).unwrap();
             for _ in 0..60 {
-                assert_eq!(engine.tick(Vector2::new(-1.0, 0.0)).unwrap().corrected_overlap, 0.0);
+                let tick = world.tick(&mut state, Vector2::new(-1.0, 0.0), &mut ()).unwrap();
+                assert_eq!(tick.corrected_overlap, 0.0);
             }
-            assert_eq!(engine.state().contacts.iter().count(), 1);
-            assert!((engine.ball().position.y + 1.0 - speed * 0.18).abs() < 1.0e-12);
+            assert_eq!(state.contacts.iter().count(), 1);
+            assert!((state.ball.position.y + 1.0 - speed * 0.18).abs() < 1.0e-12);
         }
     }
 
@@ -143,10 +147,10 @@ mod tests {
             end: 5.0,
         });
         let planes = Arc::new(SortedPlanes::new(planes).unwrap());
-        let start = Ball::at(Vector2::new(0.0, 0.25));
-        let mut engine = Continuous::new(planes, BallSpec::default(), start, 0.03).unwrap();
+        let world = World::new(planes, BallSpec::default(), 0.03).unwrap();
+        let mut state = BallState::new(Ball::at(Vector2::new(0.0, 0.25))).unwrap();
         for _ in 0..9 {
-            let tick = engine.tick(Vector2::new(1.0, -4.0)).unwrap();
+            let tick = world.tick(&mut state, Vector2::new(1.0, -4.0), &mut ()).unwrap();
             assert!(0.1 < tick.corrected_overlap, "{tick:?}");
         }
     }

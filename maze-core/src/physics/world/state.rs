@@ -1,9 +1,10 @@
 //! The state of a ball: position, velocity, and the contacts that support it.
 
 use super::collision::are_opposite;
-use crate::physics::ball::Ball;
-use crate::physics::time_of_impact::Feature;
+use super::free_space::FreeSpace;
+use crate::physics::ball::{Ball, OutOfRange};
 use crate::physics::tolerance;
+use crate::physics::wall::Feature;
 use nalgebra::Vector2;
 
 /// An active contact: the ball touches the feature, does not move along its normal, and is pressed onto it.
@@ -20,13 +21,55 @@ pub struct Contact {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contacts([Option<Contact>; 2]); // Invariant: the second is `None` where the first is.
 
-/// A ball and what supports it: all that the motion of the next tick depends on.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// A ball and its active contacts: all that the motion of the next tick depends on.
+///
+/// It also remembers a free space around the ball, which saves searches and changes no motion. Two states are equal when balls and
+/// contacts are.
+#[derive(Clone, Debug)]
+#[repr(C)] // What the usual tick needs comes first.
 pub struct BallState {
-    /// Where it is and how it moves.
-    pub ball: Ball,
+    pub(super) ball: Ball,
+    /// As found at the end of the last tick that was searched, for the contacts of then.
+    pub(super) free_space: Option<FreeSpace>,
     /// What it rests on, slides along or rolls around.
-    pub contacts: Contacts,
+    pub(super) contacts: Contacts,
+    /// Whether the ball was put here from outside and may lie inside a wall.
+    pub(super) is_placed: bool,
+    /// Ticks to wait for until the free space is refreshed.
+    pub(super) n_ticks_to_wait: u32,
+}
+
+impl BallState {
+    /// A ball that was placed: it has no contacts until the first tick, which pushes it out of walls that it is in. What it lies
+    /// on it then meets as a hit.
+    ///
+    /// # Errors
+    /// A position or velocity that is not finite.
+    pub fn new(ball: Ball) -> Result<Self, OutOfRange> {
+        Ok(Self {
+            ball: ball.checked()?,
+            free_space: None,
+            contacts: Contacts::default(),
+            is_placed: true,
+            n_ticks_to_wait: 0,
+        })
+    }
+
+    /// Where it is and how it moves.
+    pub fn ball(&self) -> Ball {
+        self.ball
+    }
+
+    /// What it rests on, slides along or rolls around.
+    pub fn contacts(&self) -> &Contacts {
+        &self.contacts
+    }
+}
+
+impl PartialEq for BallState {
+    fn eq(&self, other: &Self) -> bool {
+        self.ball == other.ball && self.contacts == other.contacts && self.is_placed == other.is_placed
+    }
 }
 
 impl Contacts {
@@ -86,7 +129,7 @@ impl Contacts {
         }
     }
 
-    /// The acceleration along what supports the ball.
+    /// The acceleration without what the contacts take: along the support.
     pub(super) fn along(&self, acceleration: Vector2<f64>) -> Vector2<f64> {
         match self.0 {
             [Some(_), Some(_)] => Vector2::zeros(),

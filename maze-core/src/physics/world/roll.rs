@@ -5,13 +5,12 @@
 //! back, and where it touches something else. Only the time at which it gets there is an elliptic integral, which Carlson's
 //! R_F gives by square roots too. Nothing depends on where ticks end but for rounding. docs/physics.md derives the formulas.
 
+use super::carlson::r_f;
 use crate::physics::ball::Ball;
-use crate::physics::engine::carlson::r_f;
 use crate::physics::roots::bracketed_root;
 use crate::physics::sorted_planes::{SortedPlanes, WIDENED};
-use crate::physics::time_of_impact::Feature;
 use crate::physics::tolerance::{self, ARC_ROUNDING, LEAST_ENERGY, PASSING, TANGENT};
-use crate::physics::wall::Plane;
+use crate::physics::wall::{Feature, Plane};
 use nalgebra::Vector2;
 
 /// Why a roll ended.
