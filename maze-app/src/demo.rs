@@ -17,8 +17,7 @@ impl Demo {
     /// Fails for a maze with no way to the goal.
     pub(crate) fn new(game: &Game, max_tilt_rad: f64) -> Result<Self, Failure> {
         let half_tangent_limit = (max_tilt_rad / 2.0).tan();
-        let autopilot = Autopilot::new(game.maze(), half_tangent_limit)
-            .ok_or_else(|| Failure::not_held("no way leads from start to goal"))?;
+        let autopilot = Autopilot::new(game.maze(), half_tangent_limit).map_err(Failure::not_held)?;
         Ok(Self { autopilot, half_tangent_limit, n_ticks_at_goal: 0 })
     }
 
@@ -31,7 +30,7 @@ impl Demo {
             }
             game.restart()?;
             self.n_ticks_at_goal = 0;
-            if let Some(autopilot) = Autopilot::new(game.maze(), self.half_tangent_limit) {
+            if let Ok(autopilot) = Autopilot::new(game.maze(), self.half_tangent_limit) {
                 self.autopilot = autopilot;
             }
         }

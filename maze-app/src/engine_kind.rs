@@ -31,32 +31,40 @@ impl EngineKind {
         }
     }
 
-    /// Around a maze, with the ball as given.
+    /// Around a maze, with the maze's ball where it is given, at the game's tick.
     pub(crate) fn build(self, maze: &Maze, ball: Ball) -> Result<Box<dyn Engine>, Failure> {
-        let spec = BallSpec { radius: maze.ball_radius, ..BallSpec::default() };
+        self.build_with(maze, maze.ball_spec(), ball, Published::TICK_S)
+    }
+
+    /// Around a maze, with any ball and any length of a tick (s).
+    pub(crate) fn build_with(
+        self,
+        maze: &Maze,
+        spec: BallSpec,
+        ball: Ball,
+        tick_s: f64,
+    ) -> Result<Box<dyn Engine>, Failure> {
         let planes = maze.planes.clone();
         let built: Result<Box<dyn Engine>, OutOfRange> = match self {
             Self::Continuous => {
-                Continuous::new(planes, spec, ball, Published::TICK_S).map(|engine| Box::new(engine) as _)
+                Continuous::new(planes, spec, ball, tick_s).map(|engine| Box::new(engine) as _)
             }
-            Self::Published => {
-                Published::new(planes, spec, ball, Published::TICK_S).map(|engine| Box::new(engine) as _)
-            }
-            Self::Rapier => return rapier(maze, spec, ball),
+            Self::Published => Published::new(planes, spec, ball, tick_s).map(|engine| Box::new(engine) as _),
+            Self::Rapier => return rapier(maze, spec, ball, tick_s),
         };
         built.map_err(Failure::bad_input)
     }
 }
 
 #[cfg(feature = "rapier")]
-fn rapier(maze: &Maze, spec: BallSpec, ball: Ball) -> Result<Box<dyn Engine>, Failure> {
+fn rapier(maze: &Maze, spec: BallSpec, ball: Ball, tick_s: f64) -> Result<Box<dyn Engine>, Failure> {
     let board = maze_verify::Board::from_planes(&maze.planes);
     let walls = maze_verify::Walls::Cuboids;
-    let engine = maze_verify::RapierEngine::new(&board, walls, spec, ball, Published::TICK_S);
+    let engine = maze_verify::RapierEngine::new(&board, walls, spec, ball, tick_s);
     Ok(Box::new(engine.map_err(Failure::bad_input)?))
 }
 
 #[cfg(not(feature = "rapier"))]
-fn rapier(_: &Maze, _: BallSpec, _: Ball) -> Result<Box<dyn Engine>, Failure> {
+fn rapier(_: &Maze, _: BallSpec, _: Ball, _: f64) -> Result<Box<dyn Engine>, Failure> {
     Err(Failure::bad_input("this maze-app was built without rapier; `--features rapier` builds it in"))
 }

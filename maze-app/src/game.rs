@@ -4,7 +4,7 @@ use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::input::TiltControl;
 use crate::source::Source;
-use maze_core::replay::{self, Recording};
+use maze_core::replay::{self, Constants, Recording};
 use maze_core::{Ball, Engine, Event, Hit, Maze, Phase, Run, Tick, Tilt, gravity};
 use maze_render::{BallView, Camera, GhostView, Marker, Scene};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -51,13 +51,13 @@ impl Pose {
 
     fn at_start(maze: &Maze) -> Self {
         let level = UnitQuaternion::identity();
-        Self { position: maze.start, ghost: None, rotation: level, world_from_maze: level }
+        Self { position: maze.start(), ghost: None, rotation: level, world_from_maze: level }
     }
 }
 
 impl Game {
     pub(crate) fn new(maze: Maze, kind: EngineKind) -> Result<Self, Failure> {
-        let engine = kind.build(&maze, Ball::at(maze.start))?;
+        let engine = kind.build(&maze, Ball::at(maze.start()))?;
         let start = Pose::at_start(&maze);
         Ok(Self {
             kind,
@@ -68,7 +68,7 @@ impl Game {
             last_hit: None,
             tilt: Tilt::LEVEL,
             tilts: Vec::new(),
-            played_to: Ball::at(maze.start),
+            played_to: Ball::at(maze.start()),
             previous: start,
             current: start,
             maze,
@@ -131,12 +131,6 @@ impl Game {
         self.run.n_ticks()
     }
 
-    /// Radius, restitution, rolling factor, rolling resistance and tick length: what a recording keeps of the engine.
-    pub(crate) fn constants(&self) -> [f64; 5] {
-        let spec = self.engine.spec();
-        [spec.radius.units(), spec.restitution, spec.rolling, spec.resistance, self.engine.tick_s()]
-    }
-
     /// How many ticks the engine has made since the start.
     pub(crate) fn n_played(&self) -> usize {
         self.tilts.len()
@@ -155,7 +149,7 @@ impl Game {
             source: source.words()?,
             maze_hash: replay::maze_hash(&self.maze),
             engine: self.kind.name().to_owned(),
-            constants: self.constants(),
+            constants: Constants::of(self.engine.as_ref()),
             tilts: self.tilts.clone(),
             final_hash: replay::state_hash(self.played_to),
         })
@@ -188,7 +182,7 @@ impl Game {
 
     /// Ball to the start, board level, clock to zero.
     pub(crate) fn restart(&mut self) -> Result<(), Failure> {
-        self.engine.place(Ball::at(self.maze.start)).map_err(Failure::bad_input)?;
+        self.engine.place(Ball::at(self.maze.start())).map_err(Failure::bad_input)?;
         self.run = Run::new(&self.maze);
         self.tilt = Tilt::LEVEL;
         self.tilts.clear();
@@ -233,7 +227,7 @@ impl Game {
 
     /// The ball comes to rest in the middle of the goal.
     fn settle(&mut self) -> Result<(), Failure> {
-        let way = (self.maze.goal - self.previous.position) * SETTLE_PART;
+        let way = (self.maze.goal() - self.previous.position) * SETTLE_PART;
         self.roll_to(self.previous.position + way);
         self.engine.place(Ball::at(self.current.position)).map_err(Failure::bad_input)
     }
@@ -264,7 +258,7 @@ impl Game {
         let radius = self.maze.ball_radius.units();
         let marker = |position: Vector2<f64>| Marker {
             position: position.map(to_f32).into(),
-            radius: to_f32(self.maze.goal_radius),
+            radius: to_f32(self.maze.goal_radius()),
         };
         Scene {
             camera,
@@ -278,8 +272,8 @@ impl Game {
                 position: position.push(radius).map(to_f32).into(),
                 radius: to_f32(radius),
             }),
-            start: marker(self.maze.start),
-            goal: marker(self.maze.goal),
+            start: marker(self.maze.start()),
+            goal: marker(self.maze.goal()),
             goal_glow: GOAL_GLOW[usize::from(self.phase() == Phase::Finished)],
             lines: Vec::new(),
             patches: Vec::new(),
@@ -344,7 +338,7 @@ mod tests {
             game.ball()
         };
         let at_60 = after_300_ticks(60);
-        assert_ne!(at_60.position, game().maze().start);
+        assert_ne!(at_60.position, game().maze().start());
         assert_eq!(after_300_ticks(30), at_60);
         assert_eq!(after_300_ticks(240), at_60);
     }
@@ -378,7 +372,7 @@ mod tests {
             }
             game.ball().position
         });
-        let moved = (exact - game().maze().start).norm();
+        let moved = (exact - game().maze().start()).norm();
         let apart = (exact - published).norm();
         // Explicit Euler is ahead by half a tick's gain in speed each tick.
         assert!(0.0 < apart && apart < moved, "{apart} of {moved}");
@@ -459,9 +453,9 @@ mod tests {
         for tick in 0..50 {
             game.tick(tilt_at(tick)).unwrap();
         }
-        assert_ne!(game.ball().position, game.maze().start);
+        assert_ne!(game.ball().position, game.maze().start());
         game.restart().unwrap();
-        assert_eq!(game.ball(), Ball::at(game.maze().start));
+        assert_eq!(game.ball(), Ball::at(game.maze().start()));
         assert_eq!((game.phase(), game.n_ticks()), (Phase::Ready, 0));
     }
 }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 /// Lines for a person; only what is known of this maze.
 pub(crate) fn lines(maze: &Maze) -> Vec<String> {
-    let Some(way_length) = maze.way_length() else { return Vec::new() };
+    let Some(way_length) = maze.path_length() else { return Vec::new() };
     let Some(metrics) = maze.metrics() else {
         return vec![format!("way          {way_length:.1} corridors long")];
     };

@@ -10,7 +10,7 @@ use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::replay::MAX_NAME;
-use maze_core::{AssembleOptions, MAX_GRID_CELLS, Maze, Radius, UpAxis, extrude};
+use maze_core::{AssembleOptions, MAX_GRID_CELLS, Maze, Radius, UpAxis};
 use std::path::{Path, PathBuf};
 
 /// How to read a maze file.
@@ -138,7 +138,7 @@ impl ReadArguments {
         let layout = recipe.layout().map_err(Failure::bad_input)?;
         // The axis that was given is that of a file, which a player may have left for a level.
         let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..self.options(&Sidecar::default()) };
-        Maze::from_polygons(&extrude::extrude(&layout), &options).map_err(Failure::bad_input)
+        layout.maze(&options).map_err(Failure::bad_input)
     }
 }
 

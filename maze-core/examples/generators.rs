@@ -4,7 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "a clock beside the physics, not in it")]
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
-use maze_core::layout::{Algorithm, Metrics, Recipe, Ways};
+use maze_core::layout::{Algorithm, CorridorGraph, Metrics, Recipe};
 use std::time::Instant;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let layout = recipe.layout()?;
             let made = begun.elapsed();
             let begun = Instant::now();
-            let ways = Ways::of_layout(&layout);
+            let ways = CorridorGraph::of_layout(&layout);
             let ends = ways.ends().ok_or("a maze without cells")?;
             let metrics = Metrics::new(&ways, ends[0], ends[1]).ok_or("a maze without a way")?;
             let name = if braid == 0.0 { algorithm.name().to_owned() } else { "  braided".to_owned() };

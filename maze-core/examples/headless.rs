@@ -1,11 +1,11 @@
 //! A ball dropped into a random maze: `cargo run -p maze-core --example headless`.
 
-use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Maze, Tilt, extrude, gravity, layout};
+use maze_core::{AssembleOptions, Engine, Tilt, gravity, layout};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let layout = layout::recursive_backtracker(10, 8, 2020)?;
-    let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default())?;
-    let mut engine = Continuous::new(maze.planes, BallSpec::default(), Ball::at(maze.start), 0.03)?;
+    let maze = layout.maze(&AssembleOptions::default())?;
+    let mut engine = maze.exact_engine(0.03)?;
     let tilt = Tilt::from_half_tangents(0.1, -0.05); // the sides towards +x and -y are down
     let pull = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
     for _ in 0..100 {

@@ -17,7 +17,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use irregular::{Scene, depth, rounding};
 use maze_core::Path;
 use maze_core::RolledArc;
-use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Maze, Observer, Plane};
+use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Layout, Observer, Plane};
 use maze_core::{Radius, SortedPlanes, Tick, extrude, layout};
 use nalgebra::Vector2;
 use noise::Noise;
@@ -220,11 +220,11 @@ fn is_joined(layout: &Layout, from: (usize, usize), to: (usize, usize), way: f64
 fn run_maze(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box<dyn std::error::Error>> {
     let mut noise = Noise(seed);
     let layout = layout::recursive_backtracker(8, 6, seed)?;
-    let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default())?;
+    let maze = layout.maze(&AssembleOptions::default())?;
     let planes: Vec<Plane> = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).collect();
-    let radius = Radius::new(0.2 + 0.299 * noise.next().abs()).ok_or("radius")?;
+    let radius = Radius::new(0.2 + 0.299 * noise.next().abs())?;
     let spec = BallSpec { radius, ..BallSpec::default() };
-    let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), TICK_S)?;
+    let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), TICK_S)?;
     totals.n_scenes += 1;
     for n in 0..n_ticks {
         if n % 1000 == 0 {

@@ -42,7 +42,7 @@ fn finishes_200_of_200_random_mazes_on_both_engines() {
     let mut slowest = 0;
     for seed in 1..=200 {
         let maze = maze(20, 20, seed);
-        let (spec, ball) = (BallSpec::default(), Ball::at(maze.start));
+        let (spec, ball) = (BallSpec::default(), Ball::at(maze.start()));
         let mut exact = Continuous::new(maze.planes.clone(), spec, ball, Published::TICK_S).unwrap();
         let mut published = Published::new(maze.planes.clone(), spec, ball, Published::TICK_S).unwrap();
         for (name, engine) in [("continuous", &mut exact as &mut dyn Engine), ("published", &mut published)] {
@@ -59,7 +59,7 @@ fn finishes_mazes_of_every_algorithm_with_and_without_loops() {
     for algorithm in layout::Algorithm::ALL {
         for (seed, braid) in [(1, 0.0), (2, 0.0), (3, 0.5), (4, 1.0)] {
             let maze = maze_of(&layout::Recipe { braid, ..layout::Recipe::new(14, 11, algorithm, seed) });
-            let ball = Ball::at(maze.start);
+            let ball = Ball::at(maze.start());
             let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
             assert!(play(&maze, &mut engine).is_some(), "{algorithm}, seed {seed}: {:?}", engine.ball());
         }
@@ -68,9 +68,11 @@ fn finishes_mazes_of_every_algorithm_with_and_without_loops() {
 
 #[test]
 fn a_ball_that_starts_on_the_goal_is_done_at_once() {
-    let mut maze = maze(6, 6, 3);
-    maze.goal = maze.start;
-    let ball = Ball::at(maze.start);
+    let layout = layout::recursive_backtracker(6, 6, 3).unwrap();
+    let start = maze(6, 6, 3).start();
+    let options = AssembleOptions { start: Some(start), goal: Some(start), ..Default::default() };
+    let maze = layout.maze(&options).unwrap();
+    let ball = Ball::at(maze.start());
     let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
     assert_eq!(play(&maze, &mut engine), Some(1));
 }
@@ -79,7 +81,7 @@ fn a_ball_that_starts_on_the_goal_is_done_at_once() {
 fn the_same_maze_is_played_the_same_way() {
     let maze = maze(6, 6, 3);
     let play = || {
-        let ball = Ball::at(maze.start);
+        let ball = Ball::at(maze.start());
         let mut engine = Continuous::new(maze.planes.clone(), BallSpec::default(), ball, 0.03).unwrap();
         (play(&maze, &mut engine), engine.ball())
     };

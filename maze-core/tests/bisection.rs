@@ -150,9 +150,13 @@ fn published_engine_keeps_the_ball_in_the_maze() {
     let mesh = extrude::extrude(&layout);
     let maze = Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap();
     let travel = || {
-        let mut engine =
-            Published::new(maze.planes.clone(), BallSpec::default(), Ball::at(maze.start), Published::TICK_S)
-                .unwrap();
+        let mut engine = Published::new(
+            maze.planes.clone(),
+            BallSpec::default(),
+            Ball::at(maze.start()),
+            Published::TICK_S,
+        )
+        .unwrap();
         let mut n_hits = 0;
         for tick in 0..20_000_i32 {
             let phase = |period: i32| f64::from((tick % period) * 4 - 2 * period) / f64::from(2 * period);

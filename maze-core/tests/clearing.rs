@@ -4,8 +4,7 @@
 mod noise;
 
 use maze_core::{
-    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, extrude,
-    layout,
+    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes, layout,
 };
 use nalgebra::Vector2;
 use noise::Noise;
@@ -49,10 +48,10 @@ fn a_tick_without_a_search_is_the_searched_one_to_the_bit() {
     let mut n_rests = 0;
     for (seed, radius) in (0..20).zip([0.35, 0.25, 0.1, 0.49].into_iter().cycle()) {
         let layout = layout::recursive_backtracker(8, 6, seed).unwrap();
-        let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
+        let maze = layout.maze(&AssembleOptions::default()).unwrap();
         let radius = Radius::new(radius).unwrap();
         let spec = BallSpec { radius, ..BallSpec::default() };
-        n_rests += compare(&maze.planes, spec, maze.start, seed);
+        n_rests += compare(&maze.planes, spec, maze.start(), seed);
     }
     assert!(300 < n_rests, "{n_rests} rests: too few to have tried sliding");
 }

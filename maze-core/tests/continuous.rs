@@ -13,7 +13,7 @@ mod noise;
 use images::{Image, MIRRORED, TURNED};
 use maze_core::{
     AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, Tick,
-    extrude, layout,
+    layout,
 };
 use nalgebra::Vector2;
 use noise::Noise;
@@ -305,7 +305,7 @@ fn numbers_that_leave_the_range_within_a_tick_are_refused_and_change_nothing() {
 
 fn random_maze(seed: u64) -> Maze {
     let layout = layout::recursive_backtracker(8, 6, seed).unwrap();
-    Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap()
+    layout.maze(&AssembleOptions::default()).unwrap()
 }
 
 /// How deep the ball is in the nearest wall, by a scan of every plane and both of its ends.
@@ -329,7 +329,7 @@ fn a_million_random_ticks_never_penetrate_tunnel_or_gain_energy() {
         let mut noise = Noise(seed);
         let radius = Radius::new(0.25 + 0.249 * noise.next().abs()).unwrap();
         let spec = BallSpec { radius, ..BallSpec::default() };
-        let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), 0.03).unwrap();
+        let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), 0.03).unwrap();
         for n in 0..50_000_u32 {
             if n % 1000 == 0 {
                 let speed = 10.0_f64.powf(4.0 * noise.next().abs());
@@ -376,7 +376,7 @@ const MARATHON: [u64; 4] = [
 #[test]
 fn a_marathon_of_20000_ticks_ends_in_the_same_bits_everywhere() {
     let maze = random_maze(7);
-    let mut engine = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
+    let mut engine = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start()), 0.03).unwrap();
     let mut noise = Noise(7);
     let mut n_hits = 0;
     for tick in 0..20_000 {
@@ -414,7 +414,7 @@ fn rolling_resistance_stops_a_ball_where_mechanics_says_and_then_holds_it() {
 fn with_rolling_resistance_energy_only_falls() {
     let maze = random_maze(5);
     let spec = BallSpec { resistance: 0.3, ..spec(E) };
-    let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), 0.03).unwrap();
+    let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), 0.03).unwrap();
     let mut noise = Noise(5);
     for n in 0..20_000 {
         let pull = noise.vector() * 4.0;
@@ -433,7 +433,7 @@ fn with_rolling_resistance_energy_only_falls() {
 #[test]
 fn an_observer_sees_every_hit_and_changes_none() {
     let maze = random_maze(9);
-    let new = || Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
+    let new = || Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start()), 0.03).unwrap();
     let (mut watched, mut alone, mut noise) = (new(), new(), Noise(9));
     for _ in 0..3000 {
         let pull = noise.vector() * 4.0;
@@ -457,8 +457,8 @@ fn image_of_the_path_is_the_path_of_the_image(symmetry: &Image) {
     let maze = random_maze(3);
     let image = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing)).map(symmetry.plane);
     let image = Arc::new(SortedPlanes::new(image).unwrap());
-    let at = Ball::at((symmetry.point)(maze.start));
-    let mut one = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start), 0.03).unwrap();
+    let at = Ball::at((symmetry.point)(maze.start()));
+    let mut one = Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start()), 0.03).unwrap();
     let mut other = Continuous::new(image, spec(E), at, 0.03).unwrap();
     let mut noise = Noise(1);
     for n in 0..2000 {

@@ -5,8 +5,7 @@
 mod noise;
 
 use maze_core::{
-    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Maze, Plane, Radius, SortedPlanes, extrude,
-    layout,
+    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Plane, Radius, SortedPlanes, layout,
 };
 use nalgebra::Vector2;
 use noise::Noise;
@@ -54,9 +53,9 @@ fn motion_in_a_maze_depends_on_the_ticks_length_only_through_corner_hits() {
     let mut n_scenes_with_corner_hits = 0;
     for seed in 0..40 {
         let layout = layout::recursive_backtracker(6, 6, seed).unwrap();
-        let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
+        let maze = layout.maze(&AssembleOptions::default()).unwrap();
         let mut noise = Noise(seed);
-        let start = Ball { position: maze.start, velocity: noise.vector() * 6.0 };
+        let start = Ball { position: maze.start(), velocity: noise.vector() * 6.0 };
         let pull = noise.vector() * 4.0;
         let after_a_second = |tick_s: f64, n_ticks: u32| {
             let mut engine = Continuous::new(maze.planes.clone(), spec(), start, tick_s).unwrap();

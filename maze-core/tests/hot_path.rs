@@ -3,7 +3,7 @@
 
 mod noise;
 
-use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Maze, Published, extrude, layout};
+use maze_core::{AssembleOptions, Ball, BallSpec, Continuous, Engine, Published, layout};
 use noise::Noise;
 
 /// Counts the allocations of 5000 ticks in which the ball flies, bounces, slides, rolls around corners and rests.
@@ -23,8 +23,8 @@ fn n_allocations(mut engine: impl Engine) -> u64 {
 #[test]
 fn a_tick_of_either_engine_allocates_nothing() {
     let layout = layout::recursive_backtracker(8, 6, 1).unwrap();
-    let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
-    let (planes, spec, ball) = (maze.planes.clone(), BallSpec::default(), Ball::at(maze.start));
+    let maze = layout.maze(&AssembleOptions::default()).unwrap();
+    let (planes, spec, ball) = (maze.planes.clone(), BallSpec::default(), Ball::at(maze.start()));
     assert_eq!(n_allocations(Continuous::new(planes.clone(), spec, ball, 0.03).unwrap()), 0);
     assert_eq!(n_allocations(Published::new(planes, spec, ball, Published::TICK_S).unwrap()), 0);
     // The counter does count.

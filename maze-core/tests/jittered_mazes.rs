@@ -99,7 +99,7 @@ fn a_ball_stays_outside_of_every_wall_of_200_jittered_mazes() {
     for seed in 0..200 {
         let mesh = import::obj::read(obj(6, 5, seed).as_bytes()).unwrap();
         let radius = [0.35, 0.25, 0.3, 0.15][usize::try_from(seed % 4).unwrap()];
-        let options = AssembleOptions { ball_radius: Radius::new(radius), ..AssembleOptions::default() };
+        let options = AssembleOptions { ball_radius: Radius::new(radius).ok(), ..AssembleOptions::default() };
         let Ok(maze) = Maze::from_polygons(&mesh, &options) else { continue };
         n_mazes += 1;
         let planes: Vec<Plane> =
@@ -107,7 +107,8 @@ fn a_ball_stays_outside_of_every_wall_of_200_jittered_mazes() {
         let radius = maze.ball_radius.units();
         let spec = BallSpec { radius: maze.ball_radius, ..BallSpec::default() };
         for mode in 0..3 {
-            let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start), 0.03).unwrap();
+            let mut engine =
+                Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), 0.03).unwrap();
             let mut pull = pulls(mode, &maze, seed);
             for n in 0..1500 {
                 let before = engine.ball();

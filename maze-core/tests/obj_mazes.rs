@@ -34,9 +34,9 @@ fn loaded(text: &str) -> Maze {
 fn a_room_has_its_inner_faces_a_door_and_a_laid_floor() {
     let maze = loaded(&room());
     // The commonest gap is the room's depth of 4 over a width of 12; scaled to 1.
-    assert_eq!(maze.scale, 0.25);
-    assert_eq!(maze.up_axis, UpAxis::Z);
-    assert!(!maze.has_floor && maze.solvable);
+    assert_eq!(maze.report.scale, 0.25);
+    assert_eq!(maze.report.up_axis, UpAxis::Z);
+    assert!(!maze.report.has_floor && maze.is_solvable());
     assert_eq!(maze.openings.len(), 1);
     assert_eq!((maze.openings[0].facing, maze.openings[0].offset), (Facing::MinusY, 0.75));
     // +x: the left wall and the door's left post; +y: the near wall; -y: the far wall and the closed door.
@@ -58,9 +58,9 @@ fn y_up_is_the_same_maze_and_not_its_mirror_image() {
         })
         .collect();
     let (z_up, y_up) = (loaded(&room()), loaded(&turned));
-    assert_eq!(y_up.up_axis, UpAxis::Y);
+    assert_eq!(y_up.report.up_axis, UpAxis::Y);
     assert_eq!(y_up.planes, z_up.planes);
-    assert_eq!((y_up.start, y_up.goal), (z_up.start, z_up.goal));
+    assert_eq!((y_up.start(), y_up.goal()), (z_up.start(), z_up.goal()));
 }
 
 /// The room with every coordinate moved.
@@ -83,7 +83,7 @@ fn a_maze_may_lie_far_from_the_origin_and_be_of_any_size() {
         let there = loaded(&moved(scale, offset));
         let counts = |maze: &Maze| Facing::ALL.map(|facing| maze.planes.n_planes(facing));
         assert_eq!(counts(&there), counts(&here), "{scale} {offset:?}");
-        assert!((there.goal - here.goal).norm() < 1.0e-6);
+        assert!((there.goal() - here.goal()).norm() < 1.0e-6);
     }
     for scale in [1.0e90, 1.0e-90] {
         let error = load(&moved(scale, [0.0; 3]), &AssembleOptions::default()).unwrap_err();
@@ -96,14 +96,14 @@ fn a_ground_far_below_the_walls_is_not_their_floor() {
     let ground = "v -99 -99 -10\nv 99 -99 -10\nv 99 99 -10\nv -99 99 -10\nf -4 -3 -2 -1\n";
     let maze = load(&(room() + ground), &AssembleOptions { up_axis: Some(UpAxis::Z), ..Default::default() })
         .unwrap();
-    assert!(!maze.has_floor, "one is laid at the walls' feet");
+    assert!(!maze.report.has_floor, "one is laid at the walls' feet");
     assert_eq!(maze.planes, loaded(&room()).planes);
 }
 
 #[test]
 fn a_ball_of_any_size_is_answered() {
     for radius in [1.0e-300, 1.0e-9, 0.6, 1.0e17, 1.0e300] {
-        let options = AssembleOptions { ball_radius: Radius::new(radius), ..Default::default() };
+        let options = AssembleOptions { ball_radius: Radius::new(radius).ok(), ..Default::default() };
         let result = load(&room(), &options);
         assert_eq!(result.is_ok(), radius < 0.5, "{radius}: {:?}", result.err());
     }
@@ -119,7 +119,7 @@ fn a_file_turned_inside_out_is_the_same_maze_and_looks_the_same() {
     let text = room() + floor;
     let inside_out: String = text.lines().map(turned).collect();
     let (one, other) = (loaded(&text), loaded(&inside_out));
-    assert!(one.has_floor && other.has_floor);
+    assert!(one.report.has_floor && other.report.has_floor);
     assert_eq!(one.planes, other.planes);
     for surface in maze_core::surface::Surface::ALL {
         let n_triangles = |maze: &Maze| maze.surface.indices_of(surface).len();
@@ -132,7 +132,7 @@ fn a_chink_is_no_opening() {
     // The door's wall ends 0.1 before the right wall: too narrow for the ball.
     let text = room().replace("v 9.9 ", "v 12.9 ");
     let maze = loaded(&text);
-    assert!(maze.openings.is_empty() && maze.solvable);
+    assert!(maze.openings.is_empty() && maze.is_solvable());
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn what_is_no_maze_is_refused_with_the_reason() {
     assert!(tetrahedron.contains("100.0 % of the area"), "{tetrahedron}");
     let one_block = block(0, [0.0; 3], [3.0, 3.0, 1.0]);
     assert!(refused(&one_block).starts_with("no corridor"));
-    let too_large = AssembleOptions { ball_radius: Radius::new(0.9), ..Default::default() };
+    let too_large = AssembleOptions { ball_radius: Radius::new(0.9).ok(), ..Default::default() };
     assert_eq!(
         load(&room(), &too_large).unwrap_err(),
         "a ball of radius 0.9 corridors fits nowhere in this maze: expected less than 0.5"

@@ -3,7 +3,7 @@
 #![allow(clippy::disallowed_methods, reason = "test files are made with sines and cosines")]
 
 use maze_core::surface::Surface;
-use maze_core::{AssembleOptions, Facing, Maze, UpAxis, import};
+use maze_core::{AssembleOptions, FaceReason, Facing, Maze, UpAxis, import};
 
 type Point = [f64; 3];
 type Polygon = Vec<Point>;
@@ -90,7 +90,7 @@ fn planes(maze: &Maze) -> [usize; 4] {
 fn played(name: &str, faces: &[Polygon]) -> Maze {
     let maze = load(faces).unwrap_or_else(|reason| panic!("{name}: {reason}"));
     assert_eq!(planes(&maze), PLANES, "{name}");
-    assert!(maze.solvable && maze.openings.is_empty(), "{name}");
+    assert!(maze.is_solvable() && maze.openings.is_empty(), "{name}");
     maze
 }
 
@@ -108,8 +108,12 @@ const TOPS: f64 = (9.0 * 7.0 - 7.0 * 5.0 + 5.0) / 4.0;
 #[test]
 fn plain() {
     let maze = played("plain", &walls());
-    assert_eq!((maze.scale, maze.up_axis, maze.has_floor), (0.5, UpAxis::Z, false));
-    assert!(maze.adjusted.is_empty() && maze.merged_within.is_none() && maze.thickened_to.is_none());
+    assert_eq!((maze.report.scale, maze.report.up_axis, maze.report.has_floor), (0.5, UpAxis::Z, false));
+    assert!(
+        maze.report.adjusted.is_empty()
+            && maze.report.merged_within.is_none()
+            && maze.report.thickened_to.is_none()
+    );
     assert!((area(&maze, Surface::Top) - TOPS).abs() < 1.0e-4);
 }
 
@@ -118,7 +122,7 @@ fn any_axis_may_be_up_and_the_file_may_be_mirrored() {
     let y_up = |[x, y, z]: Point| [x, z, -y];
     let x_up = |[x, y, z]: Point| [z, x, y];
     for (axis, faces) in [(UpAxis::Y, moved(&walls(), y_up)), (UpAxis::X, moved(&walls(), x_up))] {
-        assert_eq!(played(axis.name(), &faces).up_axis, axis);
+        assert_eq!(played(axis.name(), &faces).report.up_axis, axis);
     }
     // A mirror image has its faces inside out.
     let mirrored = load(&moved(&walls(), |[x, y, z]| [-x, y, z])).unwrap();
@@ -224,7 +228,12 @@ fn odd_ways_to_write_the_same() {
         let maze =
             load_with(&text, &AssembleOptions::default()).unwrap_or_else(|reason| panic!("{name}: {reason}"));
         assert_eq!(planes(&maze), PLANES, "{name}");
-        let n_degenerate = maze.ignored.iter().find(|note| note.reason == "no area").map(|note| note.n_faces);
+        let n_degenerate = maze
+            .report
+            .ignored
+            .iter()
+            .find(|note| note.reason == FaceReason::NoArea)
+            .map(|note| note.n_faces);
         assert_eq!(n_degenerate, (name == "degenerate faces").then_some(4), "{name}");
     }
 }
@@ -235,9 +244,12 @@ fn a_roof_is_not_drawn() {
     let sheet = moved(&[floor()], |[x, y, _]| [x, y, HEIGHT]);
     for (name, roof) in [("lid", lid), ("sheet", sheet)] {
         let maze = played(name, &[walls(), vec![floor()], roof].concat());
-        assert!(maze.ignored.iter().any(|note| note.reason.contains("roof") && note.n_faces == 1), "{name}");
+        assert!(
+            maze.report.ignored.iter().any(|note| note.reason == FaceReason::Roof && note.n_faces == 1),
+            "{name}"
+        );
         assert!((area(&maze, Surface::Top) - TOPS).abs() < 1.0e-3, "{name}: tops are laid instead");
-        assert!(maze.has_floor, "{name}");
+        assert!(maze.report.has_floor, "{name}");
     }
 }
 
@@ -260,8 +272,8 @@ fn walls_a_few_tenths_of_a_degree_off_axis_are_snapped() {
         })
         .collect();
     let maze = load(&crooked).unwrap();
-    assert!(maze.solvable && maze.openings.is_empty());
-    let snapped = maze.adjusted.iter().find(|note| note.reason.contains("snapped")).unwrap();
+    assert!(maze.is_solvable() && maze.openings.is_empty());
+    let snapped = maze.report.adjusted.iter().find(|note| note.reason == FaceReason::SnappedToAxis).unwrap();
     assert_eq!(snapped.n_faces, 20);
     // The corridor's two long sides are the same faces as ever, each within a hundredth of a corridor of its place.
     for (facing, offset) in [(Facing::PlusY, -1.25), (Facing::MinusY, 1.25)] {
@@ -284,7 +296,7 @@ fn noise_of_duplicate_planes_is_merged() {
         .collect();
     let maze = played("noise", &noisy);
     assert!(
-        (maze.merged_within.unwrap() - 0.0045).abs() < 1.0e-4,
+        (maze.report.merged_within.unwrap() - 0.0045).abs() < 1.0e-4,
         "a thousandth of 9 units, in corridors of 2"
     );
 }
@@ -308,11 +320,15 @@ fn walls_without_thickness_are_given_some() {
     for (name, faces) in [("one-sided", one_sided), ("two-sided", two_sided)] {
         let maze = load(&faces).unwrap_or_else(|reason| panic!("{name}: {reason}"));
         // A tenth of the 2 units between the faces, in corridors of what is left.
-        assert!((maze.thickened_to.unwrap() - 0.2 / 1.8).abs() < 1.0e-3, "{name}: {:?}", maze.thickened_to);
+        assert!(
+            (maze.report.thickened_to.unwrap() - 0.2 / 1.8).abs() < 1.0e-3,
+            "{name}: {:?}",
+            maze.report.thickened_to
+        );
         // Three corridors that join like an S.
         assert_eq!(planes(&maze), [3, 3, 3, 3], "{name}");
-        assert!(maze.solvable && maze.openings.is_empty(), "{name}");
-        assert!(2.0 < (maze.start - maze.goal).norm(), "{name}");
+        assert!(maze.is_solvable() && maze.openings.is_empty(), "{name}");
+        assert!(2.0 < (maze.start() - maze.goal()).norm(), "{name}");
     }
 }
 
@@ -346,11 +362,11 @@ fn a_maze_turned_about_its_up_axis_is_turned_back() {
         let mut found = planes(&maze);
         found.sort_unstable();
         assert_eq!(found, [1, 2, 2, 3], "{degrees}");
-        let told = maze.turned.y.atan2(maze.turned.x).to_degrees();
+        let told = maze.report.turned.y.atan2(maze.report.turned.x).to_degrees();
         // By quarter turns they are all alike.
         let off = (told - degrees) / 90.0;
         assert!((off - off.round()).abs() < 1.0e-4, "{degrees}: {told}");
-        assert!(maze.solvable && (maze.scale - 0.5).abs() < 1.0e-4, "{degrees}");
+        assert!(maze.is_solvable() && (maze.report.scale - 0.5).abs() < 1.0e-4, "{degrees}");
     }
 }
 
@@ -363,7 +379,7 @@ fn a_surface_without_undersides_is_a_maze() {
     let floors =
         corridors.map(|[x0, y0, x1, y1]| vec![[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]]);
     let maze = played("height map", &[seen, floors.to_vec()].concat());
-    assert!(maze.has_floor && maze.ignored.is_empty());
+    assert!(maze.report.has_floor && maze.report.ignored.is_empty());
 }
 
 #[test]
@@ -375,7 +391,7 @@ fn a_surface_that_ends_at_its_rim_has_its_walls_where_it_is_high() {
     let floor: Polygon = corridor.iter().rev().map(|[x, y]| [*x, *y, 0.0]).collect();
     let tops = walls().into_iter().filter(|face| face.iter().all(|point| point[2] == HEIGHT));
     let terrain: Vec<Polygon> = steps.iter().cloned().chain(tops).chain([floor.clone()]).collect();
-    assert!(played("terrain", &terrain).has_floor);
+    assert!(played("terrain", &terrain).report.has_floor);
     // The corridors alone, as a dungeon is drawn, without tops.
     let dungeon = [steps, vec![floor]].concat();
     // The middle wall, and a rim of a fiftieth of the size, in corridors of 2.
@@ -390,7 +406,7 @@ fn a_board_may_be_thicker_than_its_walls_are_high() {
     let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..Default::default() };
     let maze = load_with(&text(&faces), &options).unwrap();
     assert_eq!(planes(&maze), PLANES);
-    assert!(maze.has_floor && (maze.wall_height - 0.8).abs() < 1.0e-9);
+    assert!(maze.report.has_floor && (maze.wall_height - 0.8).abs() < 1.0e-9);
 }
 
 #[test]
@@ -429,7 +445,7 @@ fn start_goal_and_scale_may_be_chosen() {
         with(AssembleOptions { start: point(0.0, -0.75), goal: point(1.2, 0.75), ..Default::default() })
             .unwrap();
     assert_eq!(
-        (Some(maze.start), Some(maze.goal), maze.solvable),
+        (Some(maze.start()), Some(maze.goal()), maze.is_solvable()),
         (point(0.0, -0.75), point(1.2, 0.75), true)
     );
     for (start, goal) in [(point(0.0, 0.0), None), (None, point(0.0, -1.3)), (point(99.0, 0.0), None)] {
@@ -437,13 +453,13 @@ fn start_goal_and_scale_may_be_chosen() {
         assert!(refused.starts_with("the ball does not fit at ("), "{refused}");
     }
     let wide = with(AssembleOptions { scale: Some(1.0), ..Default::default() }).unwrap();
-    assert_eq!((wide.scale, wide.bounds.size()), (1.0, nalgebra::Vector2::new(9.0, 7.0)));
+    assert_eq!((wide.report.scale, wide.bounds.size()), (1.0, nalgebra::Vector2::new(9.0, 7.0)));
     // The ball grows and shrinks with the corridors.
     let usual = with(AssembleOptions::default()).unwrap();
-    for scale in [0.2 * usual.scale, 5.0 * usual.scale] {
+    for scale in [0.2 * usual.report.scale, 5.0 * usual.report.scale] {
         let scaled = with(AssembleOptions { scale: Some(scale), ..Default::default() }).unwrap();
-        let part = scaled.ball_radius.units() / usual.ball_radius.units() / (scale / usual.scale);
-        assert!((part - 1.0).abs() < 1.0e-9 && scaled.solvable, "{part}");
+        let part = scaled.ball_radius.units() / usual.ball_radius.units() / (scale / usual.report.scale);
+        assert!((part - 1.0).abs() < 1.0e-9 && scaled.is_solvable(), "{part}");
     }
     for scale in [1.0e-3, 1.0e9] {
         let refused = with(AssembleOptions { scale: Some(scale), ..Default::default() }).unwrap_err();

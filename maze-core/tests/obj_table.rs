@@ -63,8 +63,8 @@ fn every_real_maze_is_what_its_picture_shows() {
             (Ok(maze), Played(planes, up_axis, n_openings, has_floor)) => {
                 let n_planes = Facing::ALL.map(|facing| maze.planes.n_planes(facing));
                 assert_eq!(n_planes, planes, "{name}: planes facing +x, -x, +y, -y");
-                assert!(maze.solvable, "{name}");
-                let found = (maze.up_axis, maze.openings.len(), maze.has_floor);
+                assert!(maze.is_solvable(), "{name}");
+                let found = (maze.report.up_axis, maze.openings.len(), maze.report.has_floor);
                 assert_eq!(found, (up_axis, n_openings, has_floor), "{name}");
             }
             (Err(reason), Refused(words)) => {

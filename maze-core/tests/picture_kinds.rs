@@ -78,7 +78,7 @@ fn drawn(seed: u64, [wall, corridor]: [usize; 2], margin: usize, [ink, ground]: 
 }
 
 fn is_same(one: &Maze, other: &Maze) -> bool {
-    one.planes == other.planes && (one.start, one.goal) == (other.start, other.goal)
+    one.planes == other.planes && (one.start(), one.goal()) == (other.start(), other.goal())
 }
 
 proptest! {
@@ -118,9 +118,9 @@ proptest! {
         });
         // Specks at edges may leave a dent of a pixel, which is met; where there is a wall nothing changes.
         let maze = noisy.maze();
-        prop_assert!(maze.solvable);
+        prop_assert!(maze.is_solvable());
         prop_assert_eq!(maze.openings.len(), plain.openings.len(), "{:?} {:?} {:?}", maze.openings, plain.openings, maze.bounds);
-        prop_assert!((maze.way_length().unwrap() - plain.way_length().unwrap()).abs() < 1.0);
+        prop_assert!((maze.path_length().unwrap() - plain.path_length().unwrap()).abs() < 1.0);
         // Cracks of one pixel through all walls.
         let mut cracked = clean.clone();
         let middle = cracked.width / 2;
@@ -154,7 +154,7 @@ proptest! {
         let maze = marked.maze();
         prop_assert!(marked.read().unwrap().found().ends_with("start at the green spot, goal at the red spot"));
         let pitch = (wall + corridor) as f64 / corridor as f64;
-        let (dx, dy) = (maze.goal.x - maze.start.x, maze.goal.y - maze.start.y);
+        let (dx, dy) = (maze.goal().x - maze.start().x, maze.goal().y - maze.start().y);
         prop_assert!((dx - pitch * (6 - x) as f64).abs() < 0.2 && (dy + pitch * (4 - y) as f64).abs() < 0.2, "{dx} {dy}");
     }
 }
@@ -173,7 +173,7 @@ fn f8_a_notch_of_a_pixel_in_a_thick_outer_wall_is_no_opening() {
         notched.fill(x, y, WHITE);
         let maze = notched.maze();
         assert!(maze.openings.is_empty(), "{x:?} {y:?}: {:?}", maze.openings);
-        let moved = [maze.start - plain.start, maze.goal - plain.goal].map(|by| by.norm());
+        let moved = [maze.start() - plain.start(), maze.goal() - plain.goal()].map(|by| by.norm());
         assert!(moved.iter().all(|by| *by < 0.3), "{x:?} {y:?}: {moved:?}");
     }
 }

@@ -418,7 +418,12 @@ fn f11_one_end_alone_is_kept_and_the_other_one_found() {
     let maze = text::read(b"#########\n#      S#\n#########\n", &TextOptions::default()).unwrap();
     assert_eq!(maze.blocks.ends(), [Some([7, 1]), None]);
     let maze = maze.maze(&AssembleOptions::default()).unwrap();
-    assert!(maze.solvable && maze.start.x == 3.0 && maze.goal.x < -2.5, "{:?} {:?}", maze.start, maze.goal);
+    assert!(
+        maze.is_solvable() && maze.start().x == 3.0 && maze.goal().x < -2.5,
+        "{:?} {:?}",
+        maze.start(),
+        maze.goal()
+    );
 }
 
 #[test]

@@ -356,7 +356,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use maze_core::{AssembleOptions, Maze, extrude, layout};
+    use maze_core::{AssembleOptions, layout};
 
     fn rectangle(x0: f64, y0: f64, x1: f64, y1: f64) -> Bounds {
         Bounds { low: Vector2::new(x0, y0), high: Vector2::new(x1, y1) }
@@ -376,7 +376,7 @@ mod tests {
     fn rectangles_of_a_maze_have_the_faces_of_the_maze() {
         for seed in 0..10 {
             let layout = layout::recursive_backtracker(7, 5, seed).unwrap();
-            let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
+            let maze = layout.maze(&AssembleOptions::default()).unwrap();
             let board = Board::from_planes(&maze.planes);
             let again = Board::from_rectangles(board.rectangles().to_vec()).unwrap();
             let faces = |planes: &SortedPlanes| {
@@ -425,7 +425,7 @@ mod tests {
     #[test]
     fn the_mesh_is_closed() {
         let layout = layout::recursive_backtracker(4, 3, 1).unwrap();
-        let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
+        let maze = layout.maze(&AssembleOptions::default()).unwrap();
         let mesh = Board::from_planes(&maze.planes).mesh();
         let mut edges: Vec<[u32; 2]> = Vec::new();
         for [a, b, c] in &mesh.triangles {

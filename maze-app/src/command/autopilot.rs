@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut game = Game::new(source.load()?, arguments.engine)?;
     let mut kept = arguments.record.as_deref().map(|path| Keeper::new(path, &game, &source)).transpose()?;
     let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
-    let Some(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
+    let Ok(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
         return Err(no_path(&source, game.maze()));
     };
     let mut n_bounces = 0_u64;

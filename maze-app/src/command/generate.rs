@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::recipe::{self, RecipeArguments};
 use crate::{files, maze_file, measures};
 use clap::Args;
-use maze_core::{AssembleOptions, Maze, extrude, printable};
+use maze_core::{AssembleOptions, printable};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -38,8 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let layout = recipe.layout().map_err(Failure::bad_input)?;
     let layout = if arguments.doors { layout.with_doors_top_and_bottom() } else { layout };
     // The numbers are those of the maze as it is played.
-    let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default())
-        .map_err(Failure::bad_input)?;
+    let maze = layout.maze(&AssembleOptions::default()).map_err(Failure::bad_input)?;
     let doors = if arguments.doors { " --doors" } else { "" };
     let words = recipe::words(&recipe).join(" ").replace('=', " ") + doors;
     let solution = if arguments.solution { layout.solution() } else { None };

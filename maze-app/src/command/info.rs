@@ -46,12 +46,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     files::print(&text)?;
-    if maze.solvable { Ok(()) } else { Err(no_path(&source, &maze)) }
+    if maze.is_solvable() { Ok(()) } else { Err(no_path(&source, &maze)) }
 }
 
 /// No path leads from start to goal; where a smaller ball has one, which.
 pub(crate) fn no_path(source: &Source, maze: &Maze) -> Failure {
-    let hint = maze.passing_radius.map(|radius| format!("; a ball of radius {} passes", radius.units()));
+    let hint =
+        maze.report.passing_radius.map(|radius| format!("; a ball of radius {} passes", radius.units()));
     let hint = hint.unwrap_or_default();
     Failure::not_held(format!("{}: no way leads from start to goal{hint}", source.name()))
 }
@@ -96,8 +97,13 @@ fn summary(maze: &Maze, found: Option<&str>) -> Value {
     let point = |point: nalgebra::Vector2<f64>| json!([point.x, point.y]);
     let notes = |notes: &[FaceNote]| {
         let note = |note: &FaceNote| {
-            let (reason, faces, area_part) = (note.reason, note.n_faces, note.area_part);
-            json!({ "reason": reason, "faces": faces, "area_part": area_part, "drawn_not_met": note.is_unmet })
+            json!({
+                "reason": note.reason.to_string(),
+                "faces": note.n_faces,
+                "first_face": note.first_face,
+                "area_part": note.area_fraction,
+                "drawn_not_met": note.is_unmet,
+            })
         };
         notes.iter().map(note).collect::<Vec<_>>()
     };
@@ -110,22 +116,22 @@ fn summary(maze: &Maze, found: Option<&str>) -> Value {
         "rows": by_facing(|facing| maze.planes.n_rows(facing)),
         "bounds": { "low": point(maze.bounds.low), "high": point(maze.bounds.high) },
         "wall_height": maze.wall_height,
-        "up_axis": maze.up_axis.name(),
-        "scale": maze.scale,
+        "up_axis": maze.report.up_axis.name(),
+        "scale": maze.report.scale,
         "ball_radius": maze.ball_radius.units(),
-        "passing_radius": maze.passing_radius.map(Radius::units),
-        "start": point(maze.start),
-        "goal": point(maze.goal),
-        "solvable": maze.solvable,
-        "way_length": maze.way_length(),
+        "passing_radius": maze.report.passing_radius.map(Radius::units),
+        "start": point(maze.start()),
+        "goal": point(maze.goal()),
+        "solvable": maze.is_solvable(),
+        "way_length": maze.path_length(),
         "metrics": maze.metrics().as_ref().map(measures::json),
         "openings": openings.collect::<Vec<_>>(),
-        "has_floor": maze.has_floor,
-        "doubtful_part": maze.doubtful_part,
-        "ignored": notes(&maze.ignored),
-        "adjusted": notes(&maze.adjusted),
-        "merged_within": maze.merged_within,
-        "thickened_to": maze.thickened_to,
+        "has_floor": maze.report.has_floor,
+        "doubtful_part": maze.report.doubtful_fraction,
+        "ignored": notes(&maze.report.ignored),
+        "adjusted": notes(&maze.report.adjusted),
+        "merged_within": maze.report.merged_within,
+        "thickened_to": maze.report.thickened_to,
         "turned_degrees": turned_degrees(maze),
     })
 }
@@ -140,11 +146,15 @@ fn summary_text(maze: &Maze) -> String {
         format!("planes       {} ({})", maze.planes.len(), counts(&|facing| maze.planes.n_planes(facing))),
         format!("rows         {}", counts(&|facing| maze.planes.n_rows(facing))),
         format!("bounds       {:.3} x {:.3} corridors, walls {:.3} high", size.x, size.y, maze.wall_height),
-        format!("up axis      {} (1 unit of the file is {:.6} corridors)", maze.up_axis.name(), maze.scale),
+        format!(
+            "up axis      {} (1 unit of the file is {:.6} corridors)",
+            maze.report.up_axis.name(),
+            maze.report.scale
+        ),
         ball_line(maze),
-        format!("start        {:.3}, {:.3}", maze.start.x, maze.start.y),
-        format!("goal         {:.3}, {:.3}", maze.goal.x, maze.goal.y),
-        format!("solvable     {}", maze.solvable),
+        format!("start        {:.3}, {:.3}", maze.start().x, maze.start().y),
+        format!("goal         {:.3}, {:.3}", maze.goal().x, maze.goal().y),
+        format!("solvable     {}", maze.is_solvable()),
     ];
     lines.extend(measures::lines(maze));
     lines.extend(maze.openings.iter().take(MOST_OPENINGS).map(|opening| {
@@ -157,13 +167,13 @@ fn summary_text(maze: &Maze) -> String {
     if let Some(n_more) = maze.openings.len().checked_sub(MOST_OPENINGS).filter(|n_more| 0 < *n_more) {
         lines.push(format!("opening      and {n_more} more"));
     }
-    if !maze.has_floor {
+    if !maze.report.has_floor {
         lines.push("floor        none in the file: one was laid".to_owned());
     }
-    if 0.0 < maze.doubtful_part {
+    if 0.0 < maze.report.doubtful_fraction {
         lines.push(format!(
             "doubtful     on {:.2} % of the plan, for lack of a face, three of four sides decided what is wall",
-            100.0 * maze.doubtful_part
+            100.0 * maze.report.doubtful_fraction
         ));
     }
     lines.extend(adjustments(maze));
@@ -172,8 +182,8 @@ fn summary_text(maze: &Maze) -> String {
 
 fn ball_line(maze: &Maze) -> String {
     let radius = maze.ball_radius.units();
-    match maze.passing_radius {
-        Some(_) if maze.solvable => format!(
+    match maze.report.passing_radius {
+        Some(_) if maze.is_solvable() => format!(
             "ball radius  {radius} (the largest that passes, in hundredths of a corridor; the usual {} does not)",
             BallSpec::RADIUS.units()
         ),
@@ -186,27 +196,27 @@ fn ball_line(maze: &Maze) -> String {
 
 /// By how much the walls were turned in the file, counter-clockwise seen from above.
 fn turned_degrees(maze: &Maze) -> f64 {
-    maze.turned.y.atan2(maze.turned.x).to_degrees()
+    maze.report.turned.y.atan2(maze.report.turned.x).to_degrees()
 }
 
 /// What of the file is not as it was.
 fn adjustments(maze: &Maze) -> Vec<String> {
     let mut lines = Vec::new();
-    if maze.turned.y != 0.0 {
+    if maze.report.turned.y != 0.0 {
         let degrees = turned_degrees(maze);
         lines.push(format!(
             "turned       the walls stand {degrees:.2} degrees off the file's axes: turned back"
         ));
     }
-    if let Some(within) = maze.merged_within {
+    if let Some(within) = maze.report.merged_within {
         lines.push(format!("merged       walls less than {within:.4} corridors out of line are in one line"));
     }
-    if let Some(thickness) = maze.thickened_to {
+    if let Some(thickness) = maze.report.thickened_to {
         lines.push(format!("thickened    walls without thickness are {thickness:.3} corridors thick"));
     }
-    for (word, notes) in [("adjusted", &maze.adjusted), ("ignored", &maze.ignored)] {
+    for (word, notes) in [("adjusted", &maze.report.adjusted), ("ignored", &maze.report.ignored)] {
         lines.extend(notes.iter().map(|note| {
-            let percent = 100.0 * note.area_part;
+            let percent = 100.0 * note.area_fraction;
             format!("{word:<12} {} faces, {percent:.1} % of the area: {}", note.n_faces, note.reason)
         }));
     }

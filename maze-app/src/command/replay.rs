@@ -3,10 +3,10 @@
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::Game;
 use crate::source::{MazeArguments, Source};
 use clap::{Args, Parser, ValueEnum};
-use maze_core::replay::{MAX_TICKS, Recording, maze_hash, state_hash};
+use maze_core::Ball;
+use maze_core::replay::{MAX_TICKS, Recording, VerifyError};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -37,25 +37,27 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let in_file = |reason: String| Failure::in_file(&arguments.file, reason);
     let bytes = files::read_at_most(&arguments.file, MAX_BYTES)?;
     let recording = Recording::from_bytes(&bytes).map_err(|error| in_file(error.to_string()))?;
-    let engine = EngineKind::from_str(&recording.engine, false).map_err(|_| {
-        in_file(format!("recorded with an engine `{}`, which there is not", recording.engine))
+    let kind = EngineKind::from_str(&recording.engine, false).map_err(|_| {
+        in_file(format!("recorded with an engine `{}`, which this program does not have", recording.engine))
     })?;
     let words = SourceWords::try_parse_from(recording.source.split('\n'))
         .map_err(|_| in_file(format!("the recording's source is damaged: {}", recording.source)))?;
     let source = Source::new(&words.maze)?;
     source.expect_recordable().map_err(|failure| in_file(failure.to_string()))?;
-    let mut game = Game::new(source.load()?, engine)?;
-    if maze_hash(game.maze()) != recording.maze_hash {
-        return Err(in_file(format!("recorded on another maze than {} is now", source.title())));
-    }
-    if game.constants() != recording.constants {
-        return Err(in_file("recorded with another ball or tick than this program's".to_owned()));
-    }
-    for tilt in &recording.tilts {
-        game.tick(*tilt)?;
-    }
-    let same = state_hash(game.ball()) == recording.final_hash;
-    let (n_ticks, phase) = (recording.tilts.len(), game.phase().name());
+    let maze = source.load()?;
+    let spec = recording.constants.spec().map_err(|error| in_file(error.to_string()))?;
+    let (start, tick_s) = (Ball::at(maze.start()), recording.constants.tick_s);
+    let mut engine =
+        kind.build_with(&maze, spec, start, tick_s).map_err(|error| in_file(error.to_string()))?;
+    let (same, run) = match recording.verify_with(&maze, engine.as_mut()) {
+        Ok(run) => (true, run),
+        Err(VerifyError::OtherEnd { run, .. }) => (false, run),
+        Err(VerifyError::OtherMaze { .. }) => {
+            return Err(in_file(format!("recorded on another maze than {} is now", source.title())));
+        }
+        Err(error) => return Err(in_file(error.to_string())),
+    };
+    let (n_ticks, phase) = (recording.tilts.len(), run.phase().name());
     files::print(&match arguments.json {
         true => format!("{}\n", json!({ "same": same, "ticks": n_ticks, "phase": phase })),
         false => {

@@ -112,7 +112,8 @@ impl Sidecar {
 const RADII: std::ops::RangeInclusive<f64> = 0.02..=0.49;
 
 pub(crate) fn radius_in_range(radius: f64) -> Result<Radius, String> {
-    let usable = Some(radius).filter(|radius| RADII.contains(radius)).and_then(Radius::new);
+    let usable =
+        Some(radius).filter(|radius| RADII.contains(radius)).and_then(|radius| Radius::new(radius).ok());
     usable.ok_or_else(|| format!("expected {} to {}, in corridors", RADII.start(), RADII.end()))
 }
 
@@ -221,7 +222,7 @@ mod tests {
                     [text]\nwall = '#%'\nstart = 'A'\n";
         let sidecar = Sidecar::parse(text).unwrap();
         assert_eq!(sidecar.up, Some(UpAxis::Z));
-        assert_eq!((sidecar.scale, sidecar.ball_radius), (Some(2.0), Radius::new(0.3)));
+        assert_eq!((sidecar.scale, sidecar.ball_radius), (Some(2.0), Radius::new(0.3).ok()));
         assert_eq!((sidecar.start, sidecar.goal), (Some(Vector2::new(1.0, -2.5)), Some(Vector2::zeros())));
         assert_eq!(sidecar.textures, Some(PathBuf::from("oak")));
         let signs = TextSigns { wall: Some("#%".into()), start: Some("A".into()), ..Default::default() };

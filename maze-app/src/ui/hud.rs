@@ -65,7 +65,7 @@ pub(crate) struct Labels {
 
 impl Labels {
     pub(crate) fn new(source: &Source, maze: &Maze) -> Self {
-        let way = maze.way_length().map(|length| format!("way {length:.0}"));
+        let way = maze.path_length().map(|length| format!("way {length:.0}"));
         let difficulty = maze.metrics().map(|metrics| format!("difficulty {:.0}", metrics.difficulty));
         Self {
             title: source.title(),
@@ -88,11 +88,11 @@ impl Labels {
 
 /// What a player has to know about a maze.
 fn remarks(maze: &Maze) -> Vec<String> {
-    let ball = maze.passing_radius.map(|radius| match maze.solvable {
+    let ball = maze.report.passing_radius.map(|radius| match maze.is_solvable() {
         true => format!("a ball of {}: the usual one does not pass", radius.units()),
         false => format!("no path for this ball: one of {} passes", radius.units()),
     });
-    let unmet: usize = maze.ignored.iter().filter(|note| note.is_unmet).map(|note| note.n_faces).sum();
+    let unmet: usize = maze.report.ignored.iter().filter(|note| note.is_unmet).map(|note| note.n_faces).sum();
     let unmet = (unmet != 0).then(|| format!("{unmet} low faces are drawn and not met"));
     ball.into_iter().chain(unmet).collect()
 }

@@ -5,8 +5,8 @@ mod noise;
 
 use maze_core::sweep;
 use maze_core::{
-    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Maze, Path, Plane, Published,
-    SortedPlanes, SweepQuery,
+    AssembleOptions, Ball, BallSpec, Continuous, Engine, Facing, Hit, Path, Plane, Published, SortedPlanes,
+    SweepQuery,
 };
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
@@ -66,7 +66,7 @@ const SIDE: u32 = 72;
 
 fn planes() -> Result<Arc<SortedPlanes>, Box<dyn Error>> {
     let layout = layout::recursive_backtracker(SIDE as usize, SIDE as usize, 2020)?;
-    Ok(Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default())?.planes)
+    Ok(layout.maze(&AssembleOptions::default())?.planes)
 }
 
 /// The middle of a cell; the maze lies around the origin.

@@ -1,17 +1,17 @@
-//! Polygons -> Maze: one way for files and for generated mazes.
+//! Polygons -> Maze: one procedure for files and for generated mazes.
 
 use crate::assembly::board;
-use crate::assembly::draft::SectionError;
+use crate::assembly::error::{AssembleError, CORRIDORS};
 use crate::assembly::frame::Frame;
 use crate::assembly::polygons::{PolygonMesh, UpAxis};
 use crate::assembly::section::Section;
-use crate::assembly::survey::{MAX_OFF_AXIS_PART, Misfit, SIZES, Survey, extent};
-use crate::maze::{Bounds, Maze};
-use crate::navigation::ends::{self, Way, WayError, Wishes};
-use crate::navigation::reach::Reach;
+use crate::assembly::survey::{Survey, extent};
+use crate::maze::{FaceReason, ImportReport, Maze, Route};
+use crate::navigation::ends::{self, Ends, RouteError, Wishes};
+use crate::navigation::space::ConfigurationSpace;
 use crate::physics::ball::{BallSpec, Radius};
+use crate::physics::bounds::Bounds;
 use crate::physics::sorted_planes::SortedPlanes;
-use crate::physics::wall::PlaneError;
 use nalgebra::{Vector2, Vector3};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 /// How near the ball's centre must come to the goal (units): within the goal's corridor, whatever the ball's size.
 const GOAL_RADIUS: f64 = 0.35;
 
-/// Thickness of the rim that is laid around a surface without one, as a part of the file's size.
+/// Thickness of the rim that is laid around a surface without one, as a fraction of the file's size.
 const RING_PART: f64 = 0.02;
 
 /// An axis may point out of the board if the file is at most so many times as deep along it as along the flattest one.
@@ -34,9 +34,6 @@ const PLAY: f64 = 0.005;
 
 /// Part of the plan that low walls may bring into doubt before they are left out.
 const MAX_ADDED_DOUBT: f64 = 0.01;
-
-/// Widths of a corridor (units) that a scale given by the user may lead to.
-const CORRIDORS: RangeInclusive<f64> = 0.1..=100.0;
 
 /// What the user may decide instead of us.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,88 +50,6 @@ pub struct AssembleOptions {
     pub goal: Option<Vector2<f64>>,
 }
 
-/// Why polygons are no maze.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum AssembleError {
-    /// There is nothing.
-    #[error("no faces: expected walls")]
-    NoFaces,
-    /// Products of such coordinates would be infinite or nothing.
-    #[error("the file is {size:e} units large: expected {low:e} to {high:e}", low = SIZES.start(), high = SIZES.end())]
-    Size {
-        /// Largest extent, in file units.
-        size: f64,
-    },
-    /// No upright face along an axis.
-    #[error("no walls among {n_faces} faces: expected upright faces along two axes")]
-    NoWalls {
-        /// Faces in the file.
-        n_faces: usize,
-    },
-    /// It is something else than a maze of axis-aligned walls.
-    #[error(
-        "not a maze of axis-aligned walls ({kind}): {percent:.1} % of the area that could be wall, {percent_of_all:.1} % of \
-         all, is off axis by more than 1 degree; expected at most {max:.0} %",
-        max = 100.0 * MAX_OFF_AXIS_PART
-    )]
-    OffAxis {
-        /// What the off-axis part mostly is.
-        kind: Misfit,
-        /// Share of the upright and slanted area.
-        percent: f64,
-        /// Share of the area of all faces.
-        percent_of_all: f64,
-    },
-    /// The walls stand elsewhere than on the floor.
-    #[error("no wall stands at height {height} above the floor (file units, along the up axis)")]
-    NothingCut {
-        /// Where the walls were cut.
-        height: f64,
-    },
-    /// A wall face is not usable.
-    #[error(transparent)]
-    Plane(#[from] PlaneError),
-    /// The faces make no ground plan.
-    #[error(transparent)]
-    Section(#[from] SectionError),
-    /// Walls, but no space between them.
-    #[error("no corridor: no two walls face each other across free space")]
-    NoCorridor,
-    /// The ball is too large.
-    #[error("a ball of radius {radius} corridors fits nowhere in this maze: expected less than 0.5")]
-    NoRoom {
-        /// In corridors.
-        radius: f64,
-    },
-    /// The scale that was asked for makes corridors too narrow or too wide.
-    #[error(
-        "scale {scale} makes the corridors {corridor:.4} units wide: expected {low} to {high}",
-        low = CORRIDORS.start(), high = CORRIDORS.end()
-    )]
-    Scale {
-        /// Maze units in a unit of the file.
-        scale: f64,
-        /// The corridors' width with it.
-        corridor: f64,
-    },
-    /// The ball does not fit where the file's start or goal is, nor near it.
-    #[error("the ball does not fit at the {}: expected a free place between the walls", ["start", "goal"][*end])]
-    NoRoomNear {
-        /// 0 for the start, 1 for the goal.
-        end: usize,
-    },
-    /// Start or goal lies in a wall, too near to one, or beyond the board.
-    #[error(
-        "the ball does not fit at ({x}, {y}): expected a start and a goal within the corridors, as `info` prints them"
-    )]
-    NotFree {
-        /// Maze units.
-        x: f64,
-        /// Maze units.
-        y: f64,
-    },
-}
-
 /// What is known of a file besides its polygons, in its units across the up axis.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Given {
@@ -144,26 +59,16 @@ pub(crate) struct Given {
     pub(crate) corridor: Option<f64>,
 }
 
-impl AssembleError {
-    /// Why there is no start or no goal for a ball of this radius, in corridors.
-    fn of_way(error: WayError, radius: f64) -> Self {
-        match error {
-            WayError::NoRoom => Self::NoRoom { radius },
-            WayError::NotFree(place) => Self::NotFree { x: place.x, y: place.y },
-            WayError::NoRoomNear(end) => Self::NoRoomNear { end },
-        }
-    }
-}
-
-/// What the assembly of a maze is at; for a reader who waits.
+/// What the assembly of a maze is doing, for a user who waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stage {
     /// Looking at every face.
     Faces,
     /// Summing up wall faces to the ground plan.
     Plan,
-    /// Looking for start, goal and the way.
-    Way,
+    /// Looking for start, goal and the path.
+    Path,
     /// Triangles to draw.
     Surface,
 }
@@ -174,7 +79,7 @@ impl Stage {
         match self {
             Self::Faces => "sorting faces",
             Self::Plan => "drawing up the ground plan",
-            Self::Way => "looking for the way",
+            Self::Path => "looking for the path",
             Self::Surface => "laying floor and walls",
         }
     }
@@ -274,7 +179,7 @@ impl Maze {
         let section = raw_section.map(|x| frame.x(x), |y| frame.y(y));
         let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
-        tell(Stage::Way);
+        tell(Stage::Path);
         let wishes = Wishes {
             exact: [options.start, options.goal],
             near: given.ends.map(|end| end.map(|end| Vector2::new(frame.x(end.x), frame.y(end.y)))),
@@ -286,19 +191,19 @@ impl Maze {
         let mut openings = section.openings();
         openings.retain(|opening| 2.0 * asked * width <= opening.end - opening.start);
         let find = |radius: f64| {
-            let reach = Reach::new(&section, radius * width);
-            Way::find(&reach, &openings, radius * width, &wishes).map(|way| (reach, way))
+            let space = ConfigurationSpace::new(&section, radius * width);
+            Ends::find(&space, &openings, radius * width, &wishes).map(|ends| (space, ends))
         };
         let found = find(asked);
-        let is_solvable = found.as_ref().is_ok_and(|(_, way)| way.solvable);
+        let is_solvable = found.as_ref().is_ok_and(|(_, ends)| ends.is_joined);
         let passing = if is_solvable { None } else { largest_passing(asked, &find) };
         let (in_corridors, found) = match (passing, options.ball_radius) {
             (Some(passing), None) => (passing, find(passing)),
             _ => (asked, found),
         };
-        let (reach, way) = found.map_err(|error| AssembleError::of_way(error, asked))?;
+        let (space, ends) = found.map_err(|error| AssembleError::of_route(error, asked))?;
         // A notch in the outer wall that the ball does not fit into is no opening either.
-        openings.retain(|opening| ends::door(&reach, opening, in_corridors * width).is_some());
+        openings.retain(|opening| ends::door(&space, opening, in_corridors * width).is_some());
         let wall_height = frame.z(survey.top_z);
         tell(Stage::Surface);
         Ok(Self {
@@ -307,22 +212,27 @@ impl Maze {
             openings,
             bounds,
             wall_height,
-            ball_radius: Radius::new(in_corridors * width).ok_or(AssembleError::NoRoom { radius: asked })?,
-            passing_radius: passing.and_then(Radius::new),
-            start: way.start,
-            goal: way.goal,
-            goal_radius: GOAL_RADIUS,
-            solvable: way.solvable,
-            reach: Arc::new(reach),
-            up_axis,
-            turned: survey.turn.walls_x,
-            scale: frame.scale(),
-            has_floor: survey.has_floor,
-            ignored: survey.ignored,
-            adjusted: survey.adjusted,
-            merged_within: section.merged_within.map(|within| within * frame.scale()),
-            thickened_to: section.thickened_to.map(|thickness| thickness * frame.scale()),
-            doubtful_part: section.doubtful_part,
+            ball_radius: Radius::new(in_corridors * width)
+                .map_err(|_| AssembleError::NoRoom { radius: asked })?,
+            report: ImportReport {
+                up_axis,
+                scale: frame.scale(),
+                has_floor: survey.has_floor,
+                turned: survey.turn.walls_x,
+                ignored: survey.ignored,
+                adjusted: survey.adjusted,
+                merged_within: section.merged_within.map(|within| within * frame.scale()),
+                thickened_to: section.thickened_to.map(|thickness| thickness * frame.scale()),
+                doubtful_fraction: section.doubtful_fraction,
+                passing_radius: passing.and_then(|radius| Radius::new(radius).ok()),
+            },
+            route: Route {
+                start: ends.start,
+                goal: ends.goal,
+                goal_radius: GOAL_RADIUS,
+                is_solvable: ends.is_joined,
+                space: Arc::new(space),
+            },
         })
     }
 }
@@ -335,7 +245,7 @@ fn with_low_walls(
     radius: f64,
 ) -> Result<Option<Section>, AssembleError> {
     let low = survey.low_walls(radius);
-    survey.note_unmet(low.climbed, "lower than a fifth of the ball's radius: drawn, and rolled over");
+    survey.note_unmet(low.climbed, FaceReason::RolledOver);
     if low.planes.is_empty() {
         return Ok(None);
     }
@@ -344,13 +254,13 @@ fn with_low_walls(
     match Section::new(&cut) {
         Ok(with)
             if with.thickened_to.is_some() == section.thickened_to.is_some()
-                && with.doubtful_part <= section.doubtful_part + MAX_ADDED_DOUBT
+                && with.doubtful_fraction <= section.doubtful_fraction + MAX_ADDED_DOUBT
                 && with.corridor().is_some() =>
         {
             Ok(Some(with))
         }
         _ => {
-            survey.note_unmet(low.walls, "lower than the walls are cut, and not closed: drawn, never met");
+            survey.note_unmet(low.walls, FaceReason::LowAndOpen);
             Ok(None)
         }
     }
@@ -358,9 +268,9 @@ fn with_low_walls(
 
 /// The largest radius below the one asked for, in corridors, for which a path leads from start to goal. What a ball passes a
 /// smaller one does too, so it is found by bisection.
-fn largest_passing<T>(asked: f64, find: &impl Fn(f64) -> Result<(T, Way), WayError>) -> Option<f64> {
+fn largest_passing<T>(asked: f64, find: &impl Fn(f64) -> Result<(T, Ends), RouteError>) -> Option<f64> {
     let radius = |hundredths: u8| f64::from(hundredths) / 100.0;
-    let passes = |hundredths: u8| find(radius(hundredths) + PLAY).is_ok_and(|(_, way)| way.solvable);
+    let passes = |hundredths: u8| find(radius(hundredths) + PLAY).is_ok_and(|(_, ends)| ends.is_joined);
     let mut tried = TRIED_RADII.filter(|hundredths| radius(*hundredths) < asked);
     let (mut low, mut high) = (*TRIED_RADII.start(), tried.next_back()?);
     if !passes(low) {

@@ -5,8 +5,10 @@ use crate::assembly::polygons::doubled_area;
 use crate::assembly::section::Section;
 use crate::assembly::slice::FaceKind;
 use crate::assembly::surface::{Surface, SurfaceBuilder, SurfaceMesh};
-use crate::assembly::survey::Survey;
-use crate::maze::{Bounds, FaceNote};
+use crate::assembly::survey::{Survey, Tally};
+use crate::maze::FaceReason;
+use crate::physics::bounds::Bounds;
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::wall::Plane;
 use nalgebra::{Vector2, Vector3};
 
@@ -40,8 +42,8 @@ pub(crate) struct Covers {
     topped: Vec<bool>,
     /// Part of the corridors, and of the walls, that has a top.
     topped_parts: [f64; 2],
-    /// Faces above the corridors, and their area.
-    roof: (usize, f64),
+    /// Faces above the corridors.
+    roof: Tally,
     /// Area on which floor and tops are where corridors and walls are, and on which they are the other way round.
     agrees: f64,
     disagrees: f64,
@@ -52,11 +54,11 @@ impl Covers {
     pub(crate) fn new(survey: &Survey, section: &Section) -> Self {
         let [n_x, n_y] = section.n_cells();
         let [mut topped, mut lidded, mut floored] = [0; 3].map(|_| vec![false; n_x * n_y]);
-        let (mut n_looks, mut roof) = (0_usize, (0, 0.0));
+        let (mut n_looks, mut roof) = (0_usize, Tally::default());
         let mut crossings = Vec::new();
         let (tops_from, seen_from) = (survey.tops_from(), survey.seen_from());
         let mut low_tops = Vec::new();
-        survey.each(|kind, corners| {
+        survey.each(|face, kind, corners| {
             let is_high = corners.iter().all(|corner| tops_from < corner.z);
             let is_low_top = kind == FaceKind::Up && corners.iter().all(|corner| seen_from < corner.z);
             let cover = match kind {
@@ -89,7 +91,7 @@ impl Covers {
                 }
             }
             if is_over_free && kind == FaceKind::Up && is_high {
-                roof = (roof.0 + 1, roof.1 + doubled_area(corners).norm() / 2.0);
+                roof.add(face, doubled_area(corners).norm() / 2.0);
             }
         });
         for cell in low_tops {
@@ -133,14 +135,7 @@ impl Covers {
     /// Notes a roof, if there is one, as ignored.
     pub(crate) fn note_roof(&self, survey: &mut Survey) {
         if self.has_roof() {
-            let (n_faces, area) = self.roof;
-            let area_part = area / survey.area;
-            survey.ignored.push(FaceNote {
-                reason: "a roof over the corridors: not drawn",
-                n_faces,
-                area_part,
-                is_unmet: false,
-            });
+            survey.ignored.extend(self.roof.note(FaceReason::Roof, survey.area));
         }
     }
 
@@ -156,13 +151,13 @@ impl Covers {
 
 /// The cells whose middles lie between the lowest and the highest of some values.
 fn within(coordinates: &[f64], values: impl Iterator<Item = f64> + Clone) -> std::ops::Range<usize> {
-    let low = values.clone().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
-    let high = values.fold(f64::NEG_INFINITY, |a, b| if a < b { b } else { a });
+    let low = values.clone().fold(f64::INFINITY, lesser);
+    let high = values.fold(f64::NEG_INFINITY, greater);
     let first = coordinates.partition_point(|value| *value < low);
     let last = coordinates.partition_point(|value| *value <= high);
     // The cells at either end may still hold their middle.
     let n_cells = coordinates.len() - 1;
-    let last = if last < n_cells { last } else { n_cells };
+    let last = n_cells.min(last);
     first.saturating_sub(1)..last
 }
 
@@ -212,7 +207,7 @@ pub(crate) fn surface(
 fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut SurfaceBuilder) {
     let tops_from = survey.tops_from();
     let mut moved = Vec::new();
-    survey.each(|kind, corners| {
+    survey.each(|_, kind, corners| {
         let is_high = || corners.iter().all(|corner| tops_from < corner.z);
         let looks = match kind {
             FaceKind::OffAxis => {

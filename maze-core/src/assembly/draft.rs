@@ -2,6 +2,7 @@
 
 use crate::assembly::section::Section;
 use crate::assembly::winding::{Coordinates, Edge, FaceRun, Repeats, edges, runs, used_coordinates, votes};
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::wall::{Facing, Plane};
 
 /// Coordinates nearer than this part of the plan's size are one coordinate: between the rounding of a file with six
@@ -113,7 +114,7 @@ impl Section {
     pub(crate) fn new(raw: &[Plane]) -> Result<Self, SectionError> {
         // How far a plan is from one without a doubt.
         let doubt = |section: &Result<Self, SectionError>| match section {
-            Ok(section) if section.thickened_to.is_none() => section.doubtful_part,
+            Ok(section) if section.thickened_to.is_none() => section.doubtful_fraction,
             _ => f64::INFINITY,
         };
         let mut best = Self::summed(raw, Repeats::Count);
@@ -173,13 +174,13 @@ impl Section {
         let [thin, narrow] = self.thin_and_narrow();
         let of = |width: Option<f64>, part: f64| width.map(|width| width * part);
         let limits = [of(thin, NOISE_OF_THICKNESS), of(narrow, NOISE_OF_CORRIDOR)];
-        limits.into_iter().flatten().fold(size * NOISE_PART, |a, b| if b < a { b } else { a })
+        limits.into_iter().flatten().fold(size * NOISE_PART, lesser)
     }
 
     /// Between two coordinates next to each other.
     fn narrowest_gap(&self) -> f64 {
         let gaps = [&self.xs, &self.ys].into_iter().flat_map(|values| values.windows(2));
-        gaps.map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+        gaps.map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, lesser)
     }
 }
 
@@ -189,13 +190,13 @@ fn size(raw: &[Plane]) -> f64 {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for plane in raw {
             let ends = if plane.facing.axis() == axis { [plane.offset; 2] } else { [plane.start, plane.end] };
-            low = if ends[0] < low { ends[0] } else { low };
-            high = if high < ends[1] { ends[1] } else { high };
+            low = lesser(low, ends[0]);
+            high = greater(high, ends[1]);
         }
         if low < high { high - low } else { 0.0 }
     };
     let [x, y] = [0, 1].map(extent);
-    if x < y { y } else { x }
+    greater(x, y)
 }
 
 /// The plan with walls around faces that have no thickness; `None` where that makes no maze either.
@@ -318,7 +319,7 @@ impl Draft {
             xs,
             ys,
             solid,
-            doubtful_part: doubtful_area / area,
+            doubtful_fraction: doubtful_area / area,
             inverted: false,
             merged_within: None,
             thickened_to: None,

@@ -2,7 +2,8 @@
 
 use crate::assembly::polygons::PolygonMesh;
 use crate::layout::Layout;
-use crate::layout::blocks::{Blocks, to_f64};
+use crate::layout::blocks::Blocks;
+use crate::physics::numbers::to_f64;
 use nalgebra::Vector3;
 
 /// Width of a corridor (units).
@@ -181,7 +182,7 @@ mod tests {
     /// Two cells with a passage between them.
     fn two_cells() -> Maze {
         let layout = layout::recursive_backtracker(2, 1, 1).unwrap();
-        Maze::from_polygons(&extrude(&layout), &AssembleOptions::default()).unwrap()
+        layout.maze(&AssembleOptions::default()).unwrap()
     }
 
     #[test]
@@ -189,10 +190,15 @@ mod tests {
         let maze = two_cells();
         let one_of_each = Facing::ALL.map(|facing| maze.planes.n_planes(facing));
         assert_eq!(one_of_each, [1, 1, 1, 1]);
-        assert_eq!(maze.scale, 1.0);
+        assert_eq!(maze.report.scale, 1.0);
         assert!((maze.bounds.size().x - 2.6).abs() < 1.0e-12);
-        assert!(maze.solvable && maze.has_floor && maze.openings.is_empty() && maze.ignored.is_empty());
-        let far = (maze.start - maze.goal).norm();
+        assert!(
+            maze.is_solvable()
+                && maze.report.has_floor
+                && maze.openings.is_empty()
+                && maze.report.ignored.is_empty()
+        );
+        let far = (maze.start() - maze.goal()).norm();
         assert!((0.6..1.4).contains(&far), "start and goal lie in the two cells: {far}");
     }
 
@@ -201,9 +207,13 @@ mod tests {
         for (width, height) in [(2, 1), (1, 2), (2, 2), (3, 2), (4, 4), (8, 6), (14, 9)] {
             for seed in 0..100 {
                 let layout = layout::recursive_backtracker(width, height, seed).unwrap();
-                let maze = Maze::from_polygons(&extrude(&layout), &AssembleOptions::default()).unwrap();
-                assert!(maze.scale == 1.0 && maze.solvable, "{width}x{height}, seed {seed}: {}", maze.scale);
-                assert!(0.5 < (maze.start - maze.goal).norm(), "{width}x{height}, seed {seed}");
+                let maze = layout.maze(&AssembleOptions::default()).unwrap();
+                assert!(
+                    maze.report.scale == 1.0 && maze.is_solvable(),
+                    "{width}x{height}, seed {seed}: {}",
+                    maze.report.scale
+                );
+                assert!(0.5 < (maze.start() - maze.goal()).norm(), "{width}x{height}, seed {seed}");
             }
         }
     }
@@ -211,10 +221,10 @@ mod tests {
     #[test]
     fn corridors_stay_one_unit_wide_and_start_lies_in_a_corridor() {
         let layout = layout::recursive_backtracker(12, 9, 7).unwrap();
-        let maze = Maze::from_polygons(&extrude(&layout), &AssembleOptions::default()).unwrap();
-        assert_eq!(maze.scale, 1.0);
+        let maze = layout.maze(&AssembleOptions::default()).unwrap();
+        assert_eq!(maze.report.scale, 1.0);
         assert!((maze.wall_height - WALL_HEIGHT).abs() < 1.0e-12);
-        for point in [maze.start, maze.goal] {
+        for point in [maze.start(), maze.goal()] {
             for facing in Facing::ALL {
                 let overlap = maze.planes.first_overlap(facing, point, maze.ball_radius.units());
                 assert!(overlap.is_none(), "{point} overlaps {overlap:?}");

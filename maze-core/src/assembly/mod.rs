@@ -3,8 +3,11 @@
 pub(crate) mod assemble;
 pub(crate) mod board;
 pub(crate) mod draft;
+pub(crate) mod error;
 pub mod extrude;
 pub(crate) mod frame;
+pub(crate) mod from_layout;
+pub(crate) mod from_recipe;
 pub(crate) mod polygons;
 pub(crate) mod section;
 pub(crate) mod slice;

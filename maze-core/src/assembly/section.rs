@@ -5,6 +5,7 @@
 //! lies inside any wall is solid, and what remains between solid and free is exactly the faces that a ball can touch.
 //! The walk is made from all four sides; where a file lacks a face they disagree, and three of four decide (`draft.rs`).
 
+use crate::physics::numbers::greater;
 use crate::physics::wall::{Facing, Plane};
 use std::collections::BTreeMap;
 
@@ -22,7 +23,7 @@ pub(crate) struct Section {
     pub(crate) ys: Vec<f64>,
     pub(crate) solid: Vec<bool>, // row by row: [j * (xs.len() - 1) + i]
     /// Part of the area on which not every direction agreed, because a face is missing.
-    pub(crate) doubtful_part: f64,
+    pub(crate) doubtful_fraction: f64,
     /// Whether the faces look into the walls: the file is inside out.
     pub(crate) inverted: bool,
     /// Coordinates nearer than this became one, where there were such beyond the rounding of a file.
@@ -137,7 +138,7 @@ impl Section {
         // Where walls were up to that much out of line, so are gaps.
         let noise = 2.0 * self.merged_within.unwrap_or(0.0);
         let widths = || gaps.chunk_by(|a, b| b.0 <= a.0 * 1.02 + noise);
-        let most = widths().map(extent).reduce(|a, b| if a < b { b } else { a })?;
+        let most = widths().map(extent).reduce(greater)?;
         let narrowest = widths().find(|width| COMMON_PART * most <= extent(width))?;
         narrowest.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(gap, _)| *gap)
     }

@@ -1,7 +1,7 @@
 //! What a maze looks like, as triangles: wall, top and floor surfaces with planar texture coordinates.
 
 use crate::assembly::polygons::doubled_area;
-use crate::maze::Bounds;
+use crate::physics::bounds::Bounds;
 use crate::physics::wall::Plane;
 use earcut::Earcut;
 use nalgebra::Vector3;

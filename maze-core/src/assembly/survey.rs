@@ -1,13 +1,12 @@
 //! What the faces of a mesh are: floor, walls, tops, and what fits no maze of axis-aligned walls.
 
-use crate::assembly::assemble::AssembleError;
+use crate::assembly::error::{AssembleError, MAX_OFF_AXIS_PART, Misfit, SIZES};
 use crate::assembly::polygons::{PolygonMesh, UpAxis, doubled_area};
 use crate::assembly::slice::{self, COS_SNAP, FaceKind, SIN_SNAP};
-use crate::maze::FaceNote;
+use crate::maze::{FaceNote, FaceReason};
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::wall::Plane;
 use nalgebra::{Vector2, Vector3};
-use std::fmt::{Display, Formatter};
-use std::ops::RangeInclusive;
 
 /// Where between floor and wall tops the walls are cut: below the middle, where many files have a seam.
 const CUT_PART: f64 = 0.47;
@@ -19,19 +18,12 @@ const CLIMBED_PART: f64 = 0.2;
 /// What rises less than this part of the wall height above the floor is not worth a word.
 const SEEN_PART: f64 = 0.01;
 
-/// Share of the upright and slanted area that may be off axis (and is then met as steps) before the file is no maze of
-/// axis-aligned walls. Rounded corners and a crooked piece stay below it.
-pub(crate) const MAX_OFF_AXIS_PART: f64 = 0.1;
-
 /// Upward faces nearer to the floor than this part of the wall height are floor, the others are tops of walls.
 const FLOOR_PART: f64 = 0.25;
 
 /// Part of the plan's rectangle that upward faces at one height must cover to be a floor: corridors alone cover twice as much
 /// and more, the tops of low blocks and pillars less.
 const FLOOR_SHARE: f64 = 0.2;
-
-/// Extents of a file that can be computed with (file units): squares and products of areas stay finite and above 0.
-pub(crate) const SIZES: RangeInclusive<f64> = 1.0e-12..=1.0e12;
 
 /// Sine of the smallest angle (0.2 degrees) by which a whole maze is turned back: careless placing of each wall leaves as
 /// much, and no wall of thirty corridors moves by more than a twentieth of one.
@@ -58,27 +50,6 @@ impl Turn {
         let x = self.walls_x;
         // Without a turn the coordinates keep their bits.
         if x.y == 0.0 { p } else { Vector3::new(x.x * p.x + x.y * p.y, x.x * p.y - x.y * p.x, p.z) }
-    }
-}
-
-/// What the off-axis part of a mesh mostly is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Misfit {
-    /// Walls along the axes that do not stand upright.
-    Leaning,
-    /// Upright walls in other directions than two at right angles.
-    Slanted,
-    /// Faces that look in all directions.
-    Curved,
-}
-
-impl Display for Misfit {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(match self {
-            Self::Leaning => "its walls lean",
-            Self::Slanted => "round or slanted walls",
-            Self::Curved => "curved in all directions, as a ball or a sculpture is",
-        })
     }
 }
 
@@ -126,26 +97,25 @@ impl<'a> Survey<'a> {
         Ok(survey)
     }
 
-    /// Every face's corners, turned, in order.
-    fn each_face(&self, mut see: impl FnMut(&[Vector3<f64>])) {
+    /// Every face's index and corners, turned, in order.
+    fn each_face(&self, mut see: impl FnMut(usize, &[Vector3<f64>])) {
         let mut corners = Vec::new();
-        for face in self.mesh.faces() {
+        for (index, face) in self.mesh.faces().enumerate() {
             let turned = face.iter().map(|&corner| self.turn.apply(self.mesh.positions()[corner as usize]));
             corners.clear();
             corners.extend(turned);
             if self.reversed {
                 corners.reverse();
             }
-            see(&corners);
+            see(index, &corners);
         }
     }
 
-    /// Every face's kind and corners.
-    pub(crate) fn each(&self, mut see: impl FnMut(FaceKind, &[Vector3<f64>])) {
-        let mut kinds = self.kinds.iter();
-        self.each_face(|corners| {
-            if let Some(kind) = kinds.next() {
-                see(*kind, corners);
+    /// Every face's index, kind and corners.
+    pub(crate) fn each(&self, mut see: impl FnMut(usize, FaceKind, &[Vector3<f64>])) {
+        self.each_face(|face, corners| {
+            if let Some(kind) = self.kinds.get(face) {
+                see(face, *kind, corners);
             }
         });
     }
@@ -164,7 +134,7 @@ impl<'a> Survey<'a> {
             let is_upright = doubled.z.abs() <= SIN_SNAP * flat && 0.0 < flat && flat.is_finite();
             is_upright.then(|| (doubled.xy() / flat, flat))
         };
-        self.each_face(|corners| {
+        self.each_face(|_, corners| {
             if let Some((normal, area)) = upright(corners) {
                 sum += area * squared(squared(normal));
                 total += area;
@@ -176,7 +146,7 @@ impl<'a> Survey<'a> {
             return None;
         }
         let mut fits = 0.0;
-        self.each_face(|corners| {
+        self.each_face(|_, corners| {
             if let Some((normal, area)) = upright(corners) {
                 let across = direction.perp(&normal).abs();
                 let along = direction.dot(&normal).abs();
@@ -191,9 +161,9 @@ impl<'a> Survey<'a> {
         let mut areas = Areas::default();
         let mut levels = Levels::with_room_for(self.mesh.n_faces());
         let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY].map(|value| Vector2::new(value, value));
-        self.each_face(|corners| {
+        self.each_face(|face, corners| {
             let (kind, area, normal) = slice::classify(corners, size);
-            areas.add(kind, area, normal);
+            areas.add(face, kind, area, normal);
             levels.add(kind, area, corners);
             if matches!(kind, FaceKind::Wall(_)) {
                 for corner in corners {
@@ -219,15 +189,14 @@ impl<'a> Survey<'a> {
     /// The areas of the faces that cross a height; those off axis that do not are counted as beyond it.
     fn areas_at(&self, height: f64, kinds: &[FaceKind], size: f64) -> Areas {
         let mut areas = Areas::default();
-        let mut kinds = kinds.iter();
-        self.each_face(|corners| {
-            let Some(kind) = kinds.next() else { return };
+        self.each_face(|face, corners| {
+            let Some(kind) = kinds.get(face) else { return };
             let (_, area, normal) = slice::classify(corners, size);
             let is_below = |corner: &Vector3<f64>| corner.z < height;
             let crosses = corners.iter().any(is_below) && !corners.iter().all(is_below);
             match kind {
-                FaceKind::OffAxis if !crosses => areas.beyond(area),
-                _ => areas.add(*kind, area, normal),
+                FaceKind::OffAxis if !crosses => areas.beyond(face, area),
+                _ => areas.add(face, *kind, area, normal),
             }
         });
         areas
@@ -243,7 +212,7 @@ impl<'a> Survey<'a> {
         let height = self.cut_height();
         let is_cut = |kind: &&FaceKind| matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis);
         let mut cut = Vec::with_capacity(self.kinds.iter().filter(is_cut).count());
-        self.each(|kind, corners| {
+        self.each(|_, kind, corners| {
             if matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis) {
                 slice::cut(corners, height, &mut cut);
             }
@@ -258,20 +227,17 @@ impl<'a> Survey<'a> {
         let (cut_height, low_height) = (self.cut_height(), self.floor_z + CLIMBED_PART * radius);
         let seen_from = self.seen_from();
         let mut low = LowWalls::default();
-        self.each(|kind, corners| {
+        self.each(|face, kind, corners| {
             if !matches!(kind, FaceKind::Wall(_) | FaceKind::OffAxis) {
                 return;
             }
-            let top = corners
-                .iter()
-                .map(|corner| corner.z)
-                .fold(f64::NEG_INFINITY, |a, b| if a < b { b } else { a });
+            let top = corners.iter().map(|corner| corner.z).fold(f64::NEG_INFINITY, greater);
             let area = doubled_area(corners).norm() / 2.0;
             if low_height < top && top < cut_height {
-                low.walls.add(area);
+                low.walls.add(face, area);
                 slice::cut(corners, low_height, &mut low.planes);
             } else if seen_from < top && top < cut_height {
-                low.climbed.add(area);
+                low.climbed.add(face, area);
             }
         });
         low
@@ -283,7 +249,7 @@ impl<'a> Survey<'a> {
     }
 
     /// Notes walls that are drawn and not met.
-    pub(crate) fn note_unmet(&mut self, walls: Tally, reason: &'static str) {
+    pub(crate) fn note_unmet(&mut self, walls: Tally, reason: FaceReason) {
         let note = walls.note(reason, self.area);
         self.ignored.extend(note.map(|note| FaceNote { is_unmet: true, ..note }));
     }
@@ -341,18 +307,23 @@ pub(crate) struct LowWalls {
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Tally {
     n_faces: usize,
+    first_face: usize,
     area: f64,
 }
 
 impl Tally {
-    fn add(&mut self, area: f64) {
+    pub(crate) fn add(&mut self, face: usize, area: f64) {
+        if self.n_faces == 0 {
+            self.first_face = face;
+        }
         self.n_faces += 1;
         self.area += area;
     }
 
-    fn note(self, reason: &'static str, total: f64) -> Option<FaceNote> {
-        let area_part = if 0.0 < total { self.area / total } else { 0.0 };
-        (0 < self.n_faces).then_some(FaceNote { reason, n_faces: self.n_faces, area_part, is_unmet: false })
+    pub(crate) fn note(self, reason: FaceReason, total: f64) -> Option<FaceNote> {
+        let Self { n_faces, first_face, .. } = self;
+        let area_fraction = if 0.0 < total { self.area / total } else { 0.0 };
+        (0 < n_faces).then_some(FaceNote { reason, n_faces, first_face, area_fraction, is_unmet: false })
     }
 }
 
@@ -372,21 +343,21 @@ struct Areas {
 }
 
 impl Areas {
-    fn add(&mut self, kind: FaceKind, area: f64, normal: Vector3<f64>) {
-        self.all.add(area);
+    fn add(&mut self, face: usize, kind: FaceKind, area: f64, normal: Vector3<f64>) {
+        self.all.add(face, area);
         match kind {
             FaceKind::Wall(facing) => {
-                self.walls.add(area);
+                self.walls.add(face, area);
                 let (across, up) = (normal[1 - facing.axis()], normal.z);
                 if SIN_SNAPPED * SIN_SNAPPED < across * across + up * up {
-                    self.snapped.add(area);
+                    self.snapped.add(face, area);
                 }
             }
             FaceKind::Up => {}
-            FaceKind::Down => self.down.add(area),
-            FaceKind::Degenerate => self.degenerate.add(area),
+            FaceKind::Down => self.down.add(face, area),
+            FaceKind::Degenerate => self.degenerate.add(face, area),
             FaceKind::OffAxis => {
-                self.off_axis.add(area);
+                self.off_axis.add(face, area);
                 let flat = normal.xy();
                 if SIN_SNAP < normal.z.abs() {
                     self.leaning += area;
@@ -399,9 +370,9 @@ impl Areas {
     }
 
     /// Counts a face off axis that does not reach the height at which the walls are cut.
-    fn beyond(&mut self, area: f64) {
-        self.all.add(area);
-        self.beyond.add(area);
+    fn beyond(&mut self, face: usize, area: f64) {
+        self.all.add(face, area);
+        self.beyond.add(face, area);
     }
 
     /// Refuses what is no maze of axis-aligned walls, by what most of it is.
@@ -430,13 +401,13 @@ impl Areas {
     fn notes(&self) -> (Vec<FaceNote>, Vec<FaceNote>) {
         let total = self.all.area;
         let ignored = [
-            self.down.note("looks down: never seen and never met", total),
-            self.degenerate.note("no area", total),
-            self.beyond.note("off axis, above or below where the walls are met: drawn, never met", total),
+            self.down.note(FaceReason::LooksDown, total),
+            self.degenerate.note(FaceReason::NoArea, total),
+            self.beyond.note(FaceReason::OffAxisBeyondCut, total),
         ];
         let adjusted = [
-            self.snapped.note("off axis by up to 1 degree: snapped to it", total),
-            self.off_axis.note("off axis by more than 1 degree: met as steps along the axes", total),
+            self.snapped.note(FaceReason::SnappedToAxis, total),
+            self.off_axis.note(FaceReason::SteppedAlongAxes, total),
         ];
         (ignored.into_iter().flatten().collect(), adjusted.into_iter().flatten().collect())
     }
@@ -464,8 +435,8 @@ impl Levels {
         let heights = corners.iter().map(|corner| corner.z);
         match kind {
             FaceKind::Wall(_) => {
-                let low = heights.clone().reduce(|a, b| if b < a { b } else { a });
-                let high = heights.reduce(|a, b| if a < b { b } else { a });
+                let low = heights.clone().reduce(lesser);
+                let high = heights.reduce(greater);
                 self.walls.extend(low.zip(high).map(|(low, high)| [low, high, area]));
             }
             #[allow(clippy::cast_precision_loss, reason = "a polygon has far fewer than 2^53 corners")]
@@ -478,11 +449,11 @@ impl Levels {
     fn walls_low_and_high(&self) -> [f64; 2] {
         let lowest = |from: f64| {
             let lows = self.walls.iter().map(|wall| wall[0]).filter(|low| from <= *low);
-            lows.fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+            lows.fold(f64::INFINITY, lesser)
         };
         let highest = |to: f64| {
             let highs = self.walls.iter().map(|wall| wall[1]).filter(|high| *high <= to);
-            highs.fold(f64::NEG_INFINITY, |a, b| if a < b { b } else { a })
+            highs.fold(f64::NEG_INFINITY, greater)
         };
         let area = |of: &dyn Fn(&[f64; 3]) -> bool| {
             self.walls.iter().filter(|wall| of(wall)).map(|[_, _, area]| area).sum::<f64>()
@@ -505,8 +476,7 @@ impl Levels {
     /// How long the walls are, seen from above, that stand between two heights.
     fn length_between(&self, from: f64, to: f64) -> f64 {
         let within = |[low, high, area]: &[f64; 3]| {
-            let (low_in, high_in) =
-                (if *low < from { from } else { *low }, if to < *high { to } else { *high });
+            let (low_in, high_in) = (greater(*low, from), lesser(*high, to));
             if low_in < high_in { area * (high_in - low_in) / (high - low) } else { 0.0 }
         };
         self.walls.iter().map(within).sum::<f64>() / (to - from)
@@ -547,7 +517,7 @@ impl Levels {
         for level in self.walls.chunk_by(|a, b| b[0] - a[0] <= near) {
             sunk += level.iter().map(|[_, _, area]| area).sum::<f64>();
             if few <= sunk {
-                return if level[0][0] < lowest { lowest } else { level[0][0] };
+                return greater(level[0][0], lowest);
             }
         }
         lowest

@@ -2,6 +2,7 @@
 
 use crate::assembly::polygons::{PolygonMesh, doubled_area};
 use crate::assembly::surface::Surface;
+use crate::physics::numbers::{greater, lesser};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -80,8 +81,8 @@ pub fn write(mesh: &PolygonMesh, material_library: &str, comment: &str) -> Strin
 /// Halfway between the lowest and the highest position.
 fn middle_height(positions: &[Vector3<f64>]) -> f64 {
     let heights = || positions.iter().map(|position| position.z);
-    let low = heights().reduce(|a, b| if b < a { b } else { a });
-    let high = heights().reduce(|a, b| if a < b { b } else { a });
+    let low = heights().reduce(lesser);
+    let high = heights().reduce(greater);
     (low.unwrap_or(0.0) + high.unwrap_or(0.0)) / 2.0
 }
 
@@ -143,7 +144,10 @@ mod tests {
             let [one, other] =
                 [&mesh, &back].map(|mesh| Maze::from_polygons(mesh, &AssembleOptions::default()).unwrap());
             assert_eq!(one.planes, other.planes);
-            assert_eq!((one.start, one.goal, one.wall_height), (other.start, other.goal, other.wall_height));
+            assert_eq!(
+                (one.start(), one.goal(), one.wall_height),
+                (other.start(), other.goal(), other.wall_height)
+            );
             assert_eq!(one.openings, other.openings);
             assert_eq!(one.surface.vertices.len(), other.surface.vertices.len());
         }
@@ -153,10 +157,15 @@ mod tests {
     fn doors_are_openings_where_start_and_goal_are() {
         let maze = Maze::from_polygons(&extrude::extrude(&layout()), &AssembleOptions::default()).unwrap();
         assert_eq!(maze.openings.len(), 2);
-        assert!(maze.solvable && maze.scale == 1.0);
+        assert!(maze.is_solvable() && maze.report.scale == 1.0);
         // In at the top, out at the bottom, as on mazegenerator.net.
         let half = maze.bounds.high.y;
-        assert!(half - 1.0 < maze.start.y && maze.goal.y < 1.0 - half, "{} {}", maze.start, maze.goal);
+        assert!(
+            half - 1.0 < maze.start().y && maze.goal().y < 1.0 - half,
+            "{} {}",
+            maze.start(),
+            maze.goal()
+        );
     }
 
     /// Numbers of the lines that begin with a word.

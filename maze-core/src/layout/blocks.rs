@@ -1,27 +1,15 @@
 //! Mazes of square blocks, each wall or free: text and pictures, and the grid behind a [`Layout`].
 
-use crate::assembly::assemble::{AssembleError, AssembleOptions, Given};
-use crate::assembly::extrude::{self, WALL_HEIGHT};
-use crate::assembly::polygons::{PolygonMesh, UpAxis};
 use crate::layout::{Layout, Side};
-use crate::maze::Maze;
-use nalgebra::Vector2;
 use std::collections::BTreeSet;
 
 /// Most cells of a generated maze that a text, an SVG, a picture or a recording may ask for, such as 256 x 256: a few bytes are
 /// enough to ask, and 64 MiB are enough to answer.
 pub const MAX_GRID_CELLS: usize = 1 << 16;
 
-/// Most rectangles that the lines along the blocks' edges may make: [`MAX_GRID_CELLS`] as 1024 x 64 cells have 2050 x 130.
-const MAX_PIECES: usize = 2050 * 130;
-
-/// Most faces of walls, each as long as can be: [`MAX_GRID_CELLS`] have 130 to 165 thousand, by the algorithm. A few bytes of a
-/// picture can ask for any number of them, and it takes some 300 bytes each to find the way between them.
-const MAX_FACES: usize = 180_000;
-
 /// Where columns and rows of blocks begin.
 #[derive(Clone, Debug, PartialEq)]
-enum Lines {
+pub(crate) enum Lines {
     /// At whole numbers.
     Even,
     /// Even columns and rows are walls and posts, as thin as those of a layout.
@@ -37,37 +25,7 @@ pub struct Blocks {
     height: usize,
     wall: Vec<bool>,               // [y * width + x]
     ends: [Option<[usize; 2]>; 2], // free blocks: start and goal
-    lines: Lines,
-}
-
-/// Why blocks are no maze.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum BlocksError {
-    /// Too much detail.
-    #[error("{n_x} x {n_y} distinct wall edges: expected at most {max} rectangles between them", max = MAX_PIECES)]
-    TooFine {
-        /// Columns that differ from the one before.
-        n_x: usize,
-        /// Rows that differ from the one before.
-        n_y: usize,
-    },
-    /// Start or goal lies beyond the walls, or the ball does not fit there.
-    #[error("the ball does not fit at the {name}: expected a free place between the walls")]
-    NoRoomAt {
-        /// 0 for the start, 1 for the goal.
-        end: usize,
-        /// Start or goal.
-        name: &'static str,
-    },
-    /// Too large.
-    #[error("a maze of {n_faces} wall faces: expected at most {max}", max = MAX_FACES)]
-    TooLarge {
-        /// Sides and tops, each as long as can be.
-        n_faces: usize,
-    },
-    /// The walls make no maze.
-    #[error(transparent)]
-    Assemble(#[from] AssembleError),
+    pub(crate) lines: Lines,
 }
 
 impl Blocks {
@@ -180,79 +138,4 @@ impl Blocks {
         });
         [xs.collect(), ys.collect()]
     }
-
-    /// Where the k-th column (axis 0) or row (axis 1) of blocks begins.
-    fn line(&self, axis: usize, k: usize) -> f64 {
-        match &self.lines {
-            Lines::Even => to_f64(k),
-            Lines::ThinWalls => extrude::line(k),
-            Lines::At(lines) => lines[axis].get(k).copied().unwrap_or(0.0),
-        }
-    }
-
-    /// The maze of these blocks. Its up axis is z whatever the options say.
-    ///
-    /// # Errors
-    /// Too many blocks, blocks that make no maze, and ends where the ball does not fit.
-    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
-        let [xs, ys] = self.edges();
-        let point = |block: [usize; 2]| {
-            let middle =
-                |axis: usize| (self.line(axis, block[axis]) + self.line(axis, block[axis] + 1)) / 2.0;
-            Vector2::new(middle(0), middle(1))
-        };
-        // Cells with thin walls are a corridor wide, also where they are a hall.
-        let corridor = (self.lines == Lines::ThinWalls).then_some(extrude::CORRIDOR);
-        let given = Given { ends: self.ends.map(|end| end.map(point)), corridor };
-        let of_height = |height| {
-            let mesh = || extrude::extrude_blocks(self, &xs, &ys, |axis, k| self.line(axis, k), height);
-            maze_of_grid([xs.len(), ys.len()], mesh, options, &given)
-        };
-        let scale = {
-            let maze = of_height(WALL_HEIGHT)?;
-            if maze.scale == 1.0 {
-                return Ok(maze);
-            }
-            maze.scale
-        };
-        // Only now it is known how many blocks make a corridor; the first maze is gone before there is another one.
-        of_height(WALL_HEIGHT / scale)
-    }
-}
-
-impl Layout {
-    /// The maze of this layout as a file's content may ask for it: not larger than what a file's size justifies.
-    ///
-    /// # Errors
-    /// Too many cells.
-    pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, BlocksError> {
-        let lines = [self.width(), self.height()].map(|n| 2 * n + 2);
-        maze_of_grid(lines, || extrude::extrude(self), options, &Given::default())
-    }
-}
-
-/// The maze of walls between that many lines. Its up axis is z whatever the options say.
-fn maze_of_grid(
-    [n_x, n_y]: [usize; 2],
-    mesh: impl Fn() -> PolygonMesh,
-    options: &AssembleOptions,
-    given: &Given,
-) -> Result<Maze, BlocksError> {
-    if MAX_PIECES < n_x.saturating_mul(n_y) {
-        return Err(BlocksError::TooFine { n_x, n_y });
-    }
-    let mesh = mesh();
-    if MAX_FACES < mesh.n_faces() {
-        return Err(BlocksError::TooLarge { n_faces: mesh.n_faces() });
-    }
-    let options = AssembleOptions { up_axis: Some(UpAxis::Z), ..*options };
-    Maze::assembled(&mesh, &options, given, &mut |_| ()).map_err(|error| match error {
-        AssembleError::NoRoomNear { end } => BlocksError::NoRoomAt { end, name: ["start", "goal"][end] },
-        error => error.into(),
-    })
-}
-
-#[allow(clippy::cast_precision_loss, reason = "a side has far fewer than 2^53 blocks")]
-pub(crate) fn to_f64(n: usize) -> f64 {
-    n as f64
 }

@@ -13,6 +13,18 @@ pub enum Side {
     Top,
 }
 
+impl Side {
+    /// `left`, `right`, `bottom` or `top`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Bottom => "bottom",
+            Self::Top => "top",
+        }
+    }
+}
+
 /// An opening of the outer wall, as wide as a cell. Of two, one is the start and the other the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Door {
@@ -33,4 +45,16 @@ impl Door {
         };
         (x < width && y < height).then_some((x, y))
     }
+}
+
+/// No cell lies behind a door.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no cell {index} on the {side} side of a maze of {width}x{height} cells", index = .door.index, side = .door.side.name())]
+pub struct NoSuchDoor {
+    /// As asked for.
+    pub door: Door,
+    /// Cells along x.
+    pub width: usize,
+    /// Cells along y.
+    pub height: usize,
 }

@@ -1,9 +1,10 @@
 //! What a maze is like: numbers about its corridors and its solution.
 
+use super::corridors::{CorridorGraph, Step};
 use super::solve::Solution;
-use super::ways::{Step, Ways};
+use crate::physics::numbers::to_f64;
 
-/// Numbers about all places that can be reached from the start. Lengths are in the unit of the [`Ways`]: cells for a layout,
+/// Numbers about all places that can be reached from the start. Lengths are in the unit of the [`CorridorGraph`]: cells for a layout,
 /// corridors for a maze.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Metrics {
@@ -48,7 +49,7 @@ pub struct Metrics {
 
 impl Metrics {
     /// `None` when no way leads from start to goal, or when they are the same place.
-    pub fn new(ways: &Ways, start: usize, goal: usize) -> Option<Self> {
+    pub fn new(ways: &CorridorGraph, start: usize, goal: usize) -> Option<Self> {
         let solution = ways.solve(start, goal).filter(|_| start != goal)?;
         let ways_back = ways.distances_from(&solution.places);
         let reached: Vec<usize> = (0..ways.len()).filter(|place| ways_back[*place].is_finite()).collect();
@@ -80,18 +81,13 @@ impl Metrics {
     }
 }
 
-#[allow(clippy::cast_precision_loss, reason = "a maze has far fewer than 2^53 places")]
-fn to_f64(n: usize) -> f64 {
-    n as f64
-}
-
 /// 0 for no values.
 fn mean(values: &[f64]) -> f64 {
     if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / to_f64(values.len()) }
 }
 
 /// The steps between a solution's places.
-fn solution_steps(ways: &Ways, solution: &Solution) -> Vec<Step> {
+fn solution_steps(ways: &CorridorGraph, solution: &Solution) -> Vec<Step> {
     let steps = solution.places.windows(2);
     steps.filter_map(|pair| ways.steps(pair[0]).find(|step| step.to == pair[1])).collect()
 }
@@ -114,7 +110,7 @@ fn complexity(steps: &[Step]) -> f64 {
     clippy::disallowed_methods,
     reason = "a score that is shown; nothing that moves depends on its last bit"
 )]
-fn difficulty(ways: &Ways, solution: &Solution, steps: &[Step], reached: &[usize]) -> f64 {
+fn difficulty(ways: &CorridorGraph, solution: &Solution, steps: &[Step], reached: &[usize]) -> f64 {
     let mut walked = vec![[false; 4]; ways.len()];
     let mut is_end: Vec<bool> = (0..ways.len()).map(|place| ways.n_steps(place) != 2).collect();
     for place in &solution.places {
@@ -153,12 +149,12 @@ mod tests {
     use crate::layout::Layout;
 
     /// Cells joined in this order, two at a time.
-    fn layout(width: usize, height: usize, passages: &[(usize, usize)]) -> Ways {
+    fn layout(width: usize, height: usize, passages: &[(usize, usize)]) -> CorridorGraph {
         let mut layout = Layout::walled(width, height).unwrap();
         for (a, b) in passages {
             layout.join(*a, *b);
         }
-        Ways::of_layout(&layout)
+        CorridorGraph::of_layout(&layout)
     }
 
     #[test]

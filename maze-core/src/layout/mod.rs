@@ -1,20 +1,20 @@
 //! Grid mazes: cells, and which of them are joined.
 
 pub(crate) mod blocks;
+mod corridors;
 mod door;
 mod generate;
 mod metrics;
+mod solution;
 mod solve;
-mod way;
-mod ways;
 
-pub use door::{Door, Side};
+pub use corridors::CorridorGraph;
+pub use door::{Door, NoSuchDoor, Side};
 pub use generate::{
     Algorithm, EllerRow, EllerRows, Recipe, RecipeError, UnknownAlgorithm, recursive_backtracker,
 };
 pub use metrics::Metrics;
 pub use solve::{MOST_COUNTED, Solution};
-pub use ways::Ways;
 
 use std::collections::BTreeSet;
 
@@ -109,14 +109,16 @@ impl Layout {
         self.doors.contains(&Door { side, index })
     }
 
-    /// Opens the outer wall; false (and nothing opened) when there is no cell behind the door.
-    #[must_use]
-    pub fn open_door(&mut self, door: Door) -> bool {
-        let known = door.cell(self.width, self.height).is_some();
-        if known {
-            self.doors.insert(door);
+    /// Opens the outer wall.
+    ///
+    /// # Errors
+    /// No cell lies behind the door; nothing is opened.
+    pub fn open_door(&mut self, door: Door) -> Result<(), NoSuchDoor> {
+        if door.cell(self.width, self.height).is_none() {
+            return Err(NoSuchDoor { door, width: self.width, height: self.height });
         }
-        known
+        self.doors.insert(door);
+        Ok(())
     }
 
     /// Opens the middle of the top and of the bottom side, where mazegenerator.net puts start and goal.
@@ -129,7 +131,7 @@ impl Layout {
 
     /// Joins two neighbours, given as indices `y * width + x`.
     pub(crate) fn join(&mut self, a: usize, b: usize) {
-        let low = if a < b { a } else { b };
+        let low = a.min(b);
         if a.abs_diff(b) == 1 && self.width != 1 {
             self.east[low] = true;
         } else {

@@ -1,8 +1,8 @@
 //! The way from one place to another, and whether it is the only one.
 
-use super::ways::{Step, Ways};
+use super::corridors::{CorridorGraph, Step};
 
-/// Ways whose lengths differ by less are equally long (in the unit of the ways: cells, or corridors): far above the rounding
+/// CorridorGraph whose lengths differ by less are equally long (in the unit of the ways: cells, or corridors): far above the rounding
 /// of a sum of 2^20 lengths (1e-10), far below anything one can see.
 const SAME_LENGTH: f64 = 1.0e-6;
 
@@ -12,7 +12,7 @@ pub const MOST_COUNTED: u64 = 1_000_000_000_000_000;
 /// A shortest way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// Places of the [`Ways`] from start to goal, both included.
+    /// Places of the [`CorridorGraph`] from start to goal, both included.
     pub places: Vec<usize>,
     /// In the unit of the places' coordinates.
     pub length: f64,
@@ -23,7 +23,7 @@ pub struct Solution {
     pub is_unique: bool,
 }
 
-impl Ways {
+impl CorridorGraph {
     /// A shortest way between two places; of several the one that turns right, left, up, down in this order of preference,
     /// seen from the goal. `None` when there is none.
     pub fn solve(&self, start: usize, goal: usize) -> Option<Solution> {
@@ -99,20 +99,20 @@ impl Ways {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::{Algorithm, Layout, Recipe, Ways};
+    use crate::layout::{Algorithm, CorridorGraph, Layout, Recipe};
 
     /// All passages open.
-    fn bare_field(width: usize, height: usize) -> Ways {
+    fn bare_field(width: usize, height: usize) -> CorridorGraph {
         let mut layout = Layout::walled(width, height).unwrap();
         layout.east.fill(true);
         layout.north.fill(true);
-        Ways::of_layout(&layout)
+        CorridorGraph::of_layout(&layout)
     }
 
     #[test]
     fn a_perfect_maze_has_one_way() {
         for algorithm in Algorithm::ALL {
-            let ways = Ways::of_layout(&Recipe::new(12, 9, algorithm, 5).layout().unwrap());
+            let ways = CorridorGraph::of_layout(&Recipe::new(12, 9, algorithm, 5).layout().unwrap());
             for (start, goal) in [(0, 107), (50, 3), (7, 7)] {
                 let solution = ways.solve(start, goal).unwrap();
                 assert!(solution.is_unique && solution.n_shortest == 1, "{algorithm}: {solution:?}");
@@ -141,10 +141,10 @@ mod tests {
         for (a, b) in [(0, 1), (0, 2), (2, 4), (4, 5), (5, 3), (3, 1)] {
             layout.join(a, b);
         }
-        let solution = Ways::of_layout(&layout).solve(0, 1).unwrap();
+        let solution = CorridorGraph::of_layout(&layout).solve(0, 1).unwrap();
         assert_eq!((solution.places, solution.n_shortest, solution.is_unique), (vec![0, 1], 1, false));
         // Halfway around both ways are as long.
-        let solution = Ways::of_layout(&layout).solve(0, 5).unwrap();
+        let solution = CorridorGraph::of_layout(&layout).solve(0, 5).unwrap();
         assert_eq!((solution.n_shortest, solution.is_unique), (2, false));
     }
 
@@ -155,8 +155,8 @@ mod tests {
         for (a, b) in [(0, 1), (1, 2), (1, 4), (4, 5), (5, 8), (8, 7), (7, 4)] {
             layout.join(a, b);
         }
-        let solution = Ways::of_layout(&layout).solve(0, 2).unwrap();
+        let solution = CorridorGraph::of_layout(&layout).solve(0, 2).unwrap();
         assert!(solution.is_unique && solution.n_shortest == 1);
-        assert_eq!(Ways::of_layout(&layout).solve(0, 3), None, "cell 3 is walled in");
+        assert_eq!(CorridorGraph::of_layout(&layout).solve(0, 3), None, "cell 3 is walled in");
     }
 }

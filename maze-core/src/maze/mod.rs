@@ -1,46 +1,44 @@
 //! A maze: everything an engine or a renderer needs.
 
-use crate::assembly::polygons::UpAxis;
+mod report;
+
+pub use report::{FaceNote, FaceReason, ImportReport};
+
 use crate::assembly::surface::SurfaceMesh;
 use crate::layout::Metrics;
-use crate::navigation::reach::Reach;
-use crate::physics::ball::Radius;
+use crate::navigation::space::ConfigurationSpace;
+use crate::physics::ball::{Ball, BallSpec, OutOfRange, Radius};
+use crate::physics::bounds::Bounds;
+use crate::physics::engine::{Continuous, Published};
 use crate::physics::sorted_planes::SortedPlanes;
+use crate::physics::sweep::{Sweep, SweepQuery};
+use crate::physics::time_of_impact::Path;
 use crate::physics::wall::Plane;
+use crate::physics::world::World;
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// An axis-aligned rectangle in the maze plane (units).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Lower left corner.
-    pub low: Vector2<f64>,
-    /// Upper right corner.
-    pub high: Vector2<f64>,
-}
-
-impl Bounds {
-    /// Width and depth.
-    pub fn size(&self) -> Vector2<f64> {
-        self.high - self.low
-    }
-}
-
-/// Faces of a file that the maze does not use, or not as they are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FaceNote {
-    /// Why, or how else, in words.
-    pub reason: &'static str,
-    /// How many.
-    pub n_faces: usize,
-    /// Their part of the area of all faces, 0..=1.
-    pub area_part: f64,
-    /// Whether they are drawn although the ball never meets them, which a player has to know.
-    pub is_unmet: bool,
-}
-
 /// A maze in maze units, its centre at the origin and its floor at z = 0.
+///
+/// ```
+/// use maze_core::layout::{Algorithm, Recipe};
+/// use maze_core::{Engine, Sweep, Tilt};
+///
+/// let maze = Recipe::new(20, 20, Algorithm::Wilson, 3).maze()?;
+/// // The exact engine, with the maze's own ball at the start.
+/// let mut engine = maze.exact_engine(0.01)?;
+/// for hit in engine.simulate(Tilt::degrees(5.0, 0.0), 10.0)? {
+///     println!("after {:.2} s with {:.2} units/s", hit.time_s, hit.normal_speed());
+/// }
+/// match maze.sweep(maze.start(), maze.goal(), maze.ball_radius.units())? {
+///     Sweep::Free => println!("the goal is in sight"),
+///     Sweep::Overlaps { wall, depth, .. } => println!("{depth} deep in {wall:?}"),
+///     Sweep::Hit { point, normal, .. } => println!("a wall is in the way at {point}, its normal {normal}"),
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Maze {
     /// Wall faces, the frame around the board included.
     pub planes: Arc<SortedPlanes>,
@@ -54,66 +52,120 @@ pub struct Maze {
     pub wall_height: f64,
     /// The ball this maze is played with.
     pub ball_radius: Radius,
-    /// The largest ball, in corridors and steps of 0.01 and with 0.01 to spare, for which a path leads from start to goal, where there is none for the one
-    /// that was asked for, or for the usual one. The maze is played with it unless another one was asked for.
-    pub passing_radius: Option<Radius>,
-    /// Where the ball's centre starts.
-    pub start: Vector2<f64>,
-    /// Where it has to get.
-    pub goal: Vector2<f64>,
-    /// How near the centre must come to `goal`.
-    pub goal_radius: f64,
-    /// Whether a way leads from start to goal.
-    pub solvable: bool,
-    /// Where the ball's centre can be.
-    pub(crate) reach: Arc<Reach>,
-    /// Which axis of the file points out of the board.
-    pub up_axis: UpAxis,
-    /// Maze units in a unit of the file.
-    pub scale: f64,
-    /// Whether the file has a floor; else one was laid.
-    pub has_floor: bool,
-    /// Where the walls' x axis points in the file, across its up axis, before they were turned back; unit length, (1, 0)
-    /// when they were not turned.
-    pub turned: Vector2<f64>,
-    /// Faces that were not used, and why.
-    pub ignored: Vec<FaceNote>,
-    /// Faces that were used otherwise than they are, and how.
-    pub adjusted: Vec<FaceNote>,
-    /// Wall coordinates nearer than this (units) were noise and became one.
-    pub merged_within: Option<f64>,
-    /// Walls of the file without thickness were made this thick (units).
-    pub thickened_to: Option<f64>,
-    /// Part of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
-    pub doubtful_part: f64,
+    /// What was found in the file that it comes from.
+    pub report: ImportReport,
+    /// Start, goal and the paths between them: found together, and not to be changed one by one.
+    pub(crate) route: Route,
+}
+
+/// Start and goal, and where the ball's centre can be.
+#[derive(Clone, Debug)]
+pub(crate) struct Route {
+    pub(crate) start: Vector2<f64>,
+    pub(crate) goal: Vector2<f64>,
+    pub(crate) goal_radius: f64,
+    pub(crate) is_solvable: bool,
+    pub(crate) space: Arc<ConfigurationSpace>,
 }
 
 impl Maze {
-    /// Length of the shortest way from start to goal (corridors), along the axes through the middles of the corridors;
-    /// `None` when there is no way.
-    pub fn way_length(&self) -> Option<f64> {
-        let [start, goal] = self.ends()?;
-        Some(self.reach.distances_from(start).to(goal)).filter(|length| length.is_finite())
+    /// Where the ball's centre starts.
+    pub fn start(&self) -> Vector2<f64> {
+        self.route.start
     }
 
-    /// Numbers about the corridors; `None` when there is no way, and for a maze that is not one of corridors alone: one with a
+    /// Where the ball's centre has to get.
+    pub fn goal(&self) -> Vector2<f64> {
+        self.route.goal
+    }
+
+    /// How near the centre must come to the goal (units).
+    pub fn goal_radius(&self) -> f64 {
+        self.route.goal_radius
+    }
+
+    /// Whether a path leads from start to goal.
+    pub fn is_solvable(&self) -> bool {
+        self.route.is_solvable
+    }
+
+    /// The usual ball, with the radius of this maze's.
+    pub fn ball_spec(&self) -> BallSpec {
+        BallSpec { radius: self.ball_radius, ..BallSpec::default() }
+    }
+
+    /// The walls, the maze's ball and a tick length (s), for any number of balls.
+    ///
+    /// # Errors
+    /// A tick length that [`World::new`] refuses.
+    pub fn world(&self, tick_s: f64) -> Result<World, OutOfRange> {
+        World::new(Arc::clone(&self.planes), self.ball_spec(), tick_s)
+    }
+
+    /// The exact engine, with the maze's ball at rest at the start.
+    ///
+    /// # Errors
+    /// A tick length (s) that [`World::new`] refuses.
+    pub fn exact_engine(&self, tick_s: f64) -> Result<Continuous, OutOfRange> {
+        Continuous::new(Arc::clone(&self.planes), self.ball_spec(), Ball::at(self.start()), tick_s)
+    }
+
+    /// The report's engine, with the maze's ball at rest at the start.
+    ///
+    /// # Errors
+    /// A tick length (s) that [`World::new`] refuses.
+    pub fn published_engine(&self, tick_s: f64) -> Result<Published, OutOfRange> {
+        Published::new(Arc::clone(&self.planes), self.ball_spec(), Ball::at(self.start()), tick_s)
+    }
+
+    /// What a circle of a radius (units) touches first on the straight line between two points; here [`Sweep::Hit`]'s `time_s` is
+    /// the fraction of the line, 0 to 1. For curved paths see [`SortedPlanes::sweep`].
+    ///
+    /// # Errors
+    /// A number that is not finite, a radius that is not greater than 0.
+    pub fn sweep(&self, from: Vector2<f64>, to: Vector2<f64>, radius: f64) -> Result<Sweep, OutOfRange> {
+        let path = Path { position: from, velocity: to - from, acceleration: Vector2::zeros() };
+        Ok(self.planes.sweep(&SweepQuery::new(path, radius, 1.0)?))
+    }
+
+    /// Whether a circle of a radius (units) fits at a point: on the board, in no wall, and overlapping none by more than a touch.
+    ///
+    /// # Errors
+    /// A number that is not finite, a radius that is not greater than 0.
+    pub fn is_free(&self, point: Vector2<f64>, radius: f64) -> Result<bool, OutOfRange> {
+        let sweep = self.sweep(point, point, radius)?;
+        let Bounds { low, high } = self.bounds;
+        let is_on_board = low.x < point.x && point.x < high.x && low.y < point.y && point.y < high.y;
+        Ok(is_on_board && !matches!(sweep, Sweep::Overlaps { .. }) && !self.planes.is_inside_wall(point))
+    }
+
+    /// Length of the shortest path from start to goal (corridors), along the axes through the middles of the corridors;
+    /// `None` when there is no path.
+    pub fn path_length(&self) -> Option<f64> {
+        let [start, goal] = self.ends()?;
+        Some(self.route.space.distances_from(start).to(goal)).filter(|length| length.is_finite())
+    }
+
+    /// Numbers about the corridors; `None` when there is no path, and for a maze that is not one of corridors alone: one with a
     /// room in which the ball can pass to the side has no dead ends and junctions that could be counted. Lengths are between
     /// the middles of stretches of corridor, at most 1 long, between the ends of walls.
     pub fn metrics(&self) -> Option<Metrics> {
         let [start, goal] = self.ends()?;
-        let (ways, [start, goal]) = self.reach.ways(start, goal)?;
+        let (ways, [start, goal]) = self.route.space.corridors(start, goal)?;
         Metrics::new(&ways, start, goal)
     }
 
     fn ends(&self) -> Option<[usize; 2]> {
-        Some([self.reach.cell_at(self.start)?, self.reach.cell_at(self.goal)?])
+        let Route { start, goal, space, .. } = &self.route;
+        Some([space.cell_at(*start)?, space.cell_at(*goal)?])
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::layout::{Algorithm, Metrics, Recipe, Ways};
-    use crate::{AssembleOptions, Maze, extrude};
+    use crate::layout::{Algorithm, CorridorGraph, Metrics, Recipe};
+    use crate::{AssembleOptions, Ball, Engine, Maze, Radius, extrude};
+    use nalgebra::Vector2;
 
     #[test]
     fn a_maze_has_the_numbers_of_the_layout_it_was_made_from() {
@@ -127,7 +179,7 @@ mod tests {
         ] {
             let recipe = Recipe { braid, ..Recipe::new(width, height, algorithm, 8) };
             let layout = recipe.layout().unwrap();
-            let maze = Maze::from_polygons(&extrude::extrude(&layout), &AssembleOptions::default()).unwrap();
+            let maze = layout.maze(&AssembleOptions::default()).unwrap();
             // Cells are told by where the ball is: the walls' outer corner is the origin of the first one.
             let cell = |point: nalgebra::Vector2<f64>| {
                 let from_corner = (point - maze.bounds.low) / pitch;
@@ -135,7 +187,8 @@ mod tests {
                 index(from_corner.y, height) * width + index(from_corner.x, width)
             };
             let expected =
-                Metrics::new(&Ways::of_layout(&layout), cell(maze.start), cell(maze.goal)).unwrap();
+                Metrics::new(&CorridorGraph::of_layout(&layout), cell(maze.start()), cell(maze.goal()))
+                    .unwrap();
             let metrics = maze.metrics().unwrap();
             let near = |a: f64, b: f64| (a - b).abs() < 1.0e-9 * (1.0 + b);
             assert!(near(metrics.solution_length, pitch * expected.solution_length), "{algorithm}");
@@ -157,12 +210,12 @@ mod tests {
                 (n_turns, n_shortest, is_unique, n_dead_ends, n_junctions, n_crossroads, n_loops)
             };
             assert_eq!(counts(&metrics), counts(&expected), "{algorithm}");
-            assert!(near(maze.way_length().unwrap(), metrics.solution_length));
+            assert!(near(maze.path_length().unwrap(), metrics.solution_length));
         }
     }
 
     #[test]
-    fn a_room_has_a_way_and_no_numbers_about_corridors() {
+    fn a_room_has_a_path_and_no_numbers_about_corridors() {
         // Four walls, and two that part winding corridors from the rest.
         let mut text = String::new();
         let walls = [[0.0, 0.0, 9.0, 1.0], [0.0, 8.0, 9.0, 9.0], [0.0, 1.0, 1.0, 8.0], [8.0, 1.0, 9.0, 8.0]];
@@ -178,6 +231,40 @@ mod tests {
         }
         let mesh = crate::import::obj::read(text.as_bytes()).unwrap();
         let maze = Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap();
-        assert!(maze.way_length().is_some() && maze.metrics().is_none());
+        assert!(maze.path_length().is_some() && maze.metrics().is_none());
+    }
+
+    #[test]
+    fn a_circle_is_free_in_corridors_alone() {
+        let layout = Recipe::new(5, 4, Algorithm::Wilson, 8).layout().unwrap();
+        let maze = layout.with_doors_top_and_bottom().maze(&AssembleOptions::default()).unwrap();
+        let corner = maze.bounds.low;
+        let is_free = |x: f64, y: f64, radius| maze.is_free(corner + Vector2::new(x, y), radius).unwrap();
+        // The first cell spans 0.2 to 1.2, its walls and the post at its lower left corner 0 to 0.2.
+        assert!(is_free(0.7, 0.7, 0.5) && !is_free(0.7, 0.7, 0.501));
+        assert!(!is_free(0.1, 0.1, 0.01), "inside of a wall, far from its faces");
+        assert!(!is_free(-3.0, -3.0, 0.1), "beyond the board");
+        for value in [f64::NAN, f64::INFINITY] {
+            assert!(maze.is_free(Vector2::new(value, 0.0), 0.1).is_err());
+            assert!(maze.is_free(Vector2::zeros(), value).is_err());
+            assert!(maze.sweep(maze.start(), Vector2::new(0.0, value), 0.1).is_err());
+        }
+        assert!(
+            maze.is_free(Vector2::zeros(), 0.0).is_err() && maze.is_free(Vector2::zeros(), -1.0).is_err()
+        );
+    }
+
+    #[test]
+    fn its_engines_play_with_its_own_ball() {
+        let layout = Recipe::new(5, 4, Algorithm::Wilson, 8).layout().unwrap();
+        let options = AssembleOptions { ball_radius: Radius::new(0.2).ok(), ..AssembleOptions::default() };
+        let maze = layout.maze(&options).unwrap();
+        for engine in
+            [&maze.exact_engine(0.02).unwrap() as &dyn Engine, &maze.published_engine(0.02).unwrap()]
+        {
+            assert_eq!((engine.spec().radius.units(), engine.tick_s()), (0.2, 0.02));
+            assert_eq!(engine.ball(), Ball::at(maze.start()));
+        }
+        assert!(maze.exact_engine(0.0).is_err());
     }
 }

@@ -1,4 +1,4 @@
-//! The ball: where it is, how it moves, what it is made of.
+//! The ball: where it is, how it moves, its radius and material.
 
 use nalgebra::Vector2;
 
@@ -24,9 +24,15 @@ impl OutOfRange {
 pub struct Radius(f64);
 
 impl Radius {
-    /// `None` unless `units` is finite and greater than zero.
-    pub fn new(units: f64) -> Option<Self> {
-        (units.is_finite() && 0.0 < units).then_some(Self(units))
+    /// A radius (maze units).
+    ///
+    /// # Errors
+    /// A number that is not finite, or not greater than zero.
+    pub const fn new(units: f64) -> Result<Self, OutOfRange> {
+        if units.is_finite() && 0.0 < units {
+            return Ok(Self(units));
+        }
+        Err(OutOfRange { what: "the ball's radius", expected: "a finite number greater than 0" })
     }
 
     /// In maze units.
@@ -50,7 +56,7 @@ impl Ball {
         Self { position, velocity: Vector2::zeros() }
     }
 
-    /// The ball itself, or which part of it is not finite.
+    /// The ball itself, or which of its vectors is not finite.
     pub fn checked(self) -> Result<Self, OutOfRange> {
         let finite = |vector: Vector2<f64>| vector.iter().all(|value| value.is_finite());
         match (finite(self.position), finite(self.velocity)) {
@@ -61,14 +67,14 @@ impl Ball {
     }
 }
 
-/// What the ball is made of.
+/// Radius and material of the ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallSpec {
     /// Of the circle in the maze plane.
     pub radius: Radius,
-    /// Part of the normal speed that a bounce keeps, 0..=1.
+    /// Fraction of the normal speed that a bounce keeps, 0..=1.
     pub restitution: f64,
-    /// Part of the projected gravity that accelerates the centre: [`BallSpec::POINT_MASS`] or [`BallSpec::ROLLING_SPHERE`].
+    /// Fraction of the projected gravity that accelerates the centre: [`BallSpec::POINT_MASS`] or [`BallSpec::ROLLING_SPHERE`].
     pub rolling: f64,
     /// Rolling resistance: deceleration against the motion (units/s²), from 0, which is off.
     pub resistance: f64,
@@ -84,12 +90,12 @@ impl BallSpec {
 
     /// The spec itself, or which of its numbers is out of range.
     pub fn checked(self) -> Result<Self, OutOfRange> {
-        let part = |what| OutOfRange { what, expected: "a part, 0 to 1" };
+        let fraction = |what| OutOfRange { what, expected: "a fraction, 0 to 1" };
         if !(0.0..=1.0).contains(&self.restitution) {
-            return Err(part("the restitution"));
+            return Err(fraction("the restitution"));
         }
         if !(0.0..=1.0).contains(&self.rolling) {
-            return Err(part("the rolling factor"));
+            return Err(fraction("the rolling factor"));
         }
         let is_resistance = self.resistance.is_finite() && 0.0 <= self.resistance;
         let expected = "a finite number, 0 or more";
@@ -105,9 +111,11 @@ impl BallSpec {
         if speed <= loss { Vector2::zeros() } else { velocity * (1.0 - loss / speed) }
     }
 
-    /// Whether rolling resistance holds a ball: it stops within the time (s), and the pull does not overcome it.
-    pub(crate) fn holds(&self, velocity: Vector2<f64>, pull: Vector2<f64>, time_s: f64) -> bool {
-        0.0 < self.resistance && pull.norm() <= self.resistance && velocity.norm() <= self.resistance * time_s
+    /// Whether rolling resistance holds a ball: it stops within the time (s), and the acceleration does not overcome it.
+    pub(crate) fn holds(&self, velocity: Vector2<f64>, acceleration: Vector2<f64>, time_s: f64) -> bool {
+        0.0 < self.resistance
+            && acceleration.norm() <= self.resistance
+            && velocity.norm() <= self.resistance * time_s
     }
 
     /// The usual radius: large enough to be seen, and corridors stay wide enough to bounce in.

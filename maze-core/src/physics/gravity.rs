@@ -57,6 +57,19 @@ impl Tilt {
         Self { towards_x: steps(towards_x), towards_y: steps(towards_y) }
     }
 
+    /// The nearest tilt that brings the +x side down by one angle (degrees) and the +y side by another: each is the tilt when the
+    /// other is 0. Beyond ±90 degrees it saturates, and NaN is 0. The same bits on every platform.
+    ///
+    /// ```
+    /// use maze_core::{Tilt, gravity};
+    ///
+    /// let acceleration = gravity::project(gravity::WORLD_GRAVITY, &Tilt::degrees(30.0, 0.0).world_from_maze());
+    /// assert!((acceleration.x - 9.81 / 2.0).abs() < 1.0e-3);
+    /// ```
+    pub fn degrees(towards_x: f64, towards_y: f64) -> Self {
+        Self::from_half_tangents(half_tangent(towards_x), half_tangent(towards_y))
+    }
+
     /// The half-angle tangents (towards +x, towards +y).
     pub fn half_tangents(self) -> [f64; 2] {
         [f64::from(self.towards_x) * Self::STEP, f64::from(self.towards_y) * Self::STEP]
@@ -69,6 +82,20 @@ impl Tilt {
         // 0 - y and not -y: a level board has no negative zero.
         UnitQuaternion::new_normalize(Quaternion::new(1.0, 0.0 - y, x, 0.0))
     }
+}
+
+/// The tangent of half an angle (degrees) of at most 90 degrees, by Lambert's continued fraction x / (1 - x² / (3 - x² / (5 - ..))):
+/// the standard library's differs between platforms.
+fn half_tangent(degrees: f64) -> f64 {
+    if 90.0 <= degrees.abs() {
+        return if degrees < 0.0 { -1.0 } else { 1.0 };
+    }
+    let half = degrees * (std::f64::consts::PI / 360.0);
+    let mut denominator = 19.0;
+    for odd in [17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0] {
+        denominator = odd - half * half / denominator;
+    }
+    half / denominator
 }
 
 #[cfg(test)]
@@ -146,6 +173,17 @@ mod tests {
             Tilt { towards_x: i16::MAX, towards_y: i16::MIN }
         );
         assert_eq!(Tilt::from_half_tangents(f64::NAN, 0.0), Tilt::LEVEL);
+    }
+
+    #[test]
+    fn an_angle_in_degrees_is_the_nearest_step() {
+        for n in -9000..=9000 {
+            let degrees = f64::from(n) / 100.0;
+            let truth = (degrees.to_radians() / 2.0).tan();
+            assert!((half_tangent(degrees) - truth).abs() < 1.0e-15, "{degrees}");
+        }
+        assert_eq!(Tilt::degrees(400.0, -90.0), Tilt { towards_x: i16::MAX, towards_y: i16::MIN });
+        assert_eq!(Tilt::degrees(f64::NAN, 0.0), Tilt::LEVEL);
     }
 
     #[test]

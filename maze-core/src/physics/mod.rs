@@ -2,9 +2,11 @@
 //! times of impact, contacts, the engines.
 
 pub(crate) mod ball;
+pub(crate) mod bounds;
 pub mod contact;
 pub mod engine;
 pub mod gravity;
+pub(crate) mod numbers;
 pub(crate) mod roots;
 pub(crate) mod sorted_planes;
 pub mod sweep;

@@ -5,6 +5,7 @@
 
 use crate::physics::ball::OutOfRange;
 use crate::physics::contact;
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::sorted_planes::{Face, SortedPlanes, WIDENED};
 use crate::physics::time_of_impact::{self, Path};
 use crate::physics::tolerance;
@@ -365,8 +366,8 @@ impl<'a> Search<'a> {
         let gap = if path.velocity[axis] < 0.0 { -gap } else { gap };
         let (from_s, to_s) = ((gap - reach) / fast, (gap + reach) / slow);
         let along = |time_s: f64| {
-            let time_s = if time_s < 0.0 { 0.0 } else { time_s };
-            path.at(if time_s < until_s { time_s } else { until_s })[1 - axis]
+            let time_s = greater(time_s, 0.0);
+            path.at(lesser(until_s, time_s))[1 - axis]
         };
         let (from, to) = (along(from_s), along(to_s));
         if from < to { [from - reach, to + reach] } else { [to - reach, from + reach] }

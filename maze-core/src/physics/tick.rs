@@ -1,6 +1,7 @@
 //! What a tick reports: its sums, its hits, and the stretches of motion between them.
 
 use crate::physics::ball::Ball;
+use crate::physics::numbers::greater;
 use crate::physics::time_of_impact::Path;
 use nalgebra::Vector2;
 
@@ -52,7 +53,7 @@ impl Hit {
     /// The speed at which the ball met the wall, along the normal (units/s); 0 for one that moved away already.
     pub fn normal_speed(&self) -> f64 {
         let speed = -self.before.velocity.dot(&self.normal);
-        if 0.0 < speed { speed } else { 0.0 }
+        greater(0.0, speed)
     }
 }
 

@@ -3,6 +3,7 @@
 //! Times are counted from the parabola's start. Numbers are expected to be finite, as a [`crate::sweep::SweepQuery`] holds them,
 //! and are not checked here.
 
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::roots::{bracketed_root, falls_through_zero, quadratic_roots};
 use crate::physics::tolerance::{self, PASSING};
 use crate::physics::wall::Plane;
@@ -40,7 +41,7 @@ impl Path {
         }
         // The stationary point lies v² / 2a from the start.
         let stationary = from - speed * speed / (2.0 * acceleration);
-        [if stationary < low { stationary } else { low }, if high < stationary { stationary } else { high }]
+        [lesser(low, stationary), greater(high, stationary)]
     }
 }
 

@@ -7,6 +7,7 @@
 //! for a contact afterwards (`SNAP`), that a fortieth of what counts as lying behind a face (`TOUCH`), and that a third of what
 //! is never returned (`OVERLAP`).
 
+use crate::physics::numbers::greater;
 use nalgebra::Vector2;
 
 /// Depth (radii) up to which a path that passes a point only grazes it. A graze has a double root, which rounding (1e-16 r,
@@ -52,7 +53,7 @@ pub(crate) const LEAST_ENERGY: f64 = 1.0e-200;
 /// Rounding of a coordinate (units): two to four ulps.
 fn rounding(position: Vector2<f64>) -> f64 {
     let (x, y) = (position.x.abs(), position.y.abs());
-    2.0 * f64::EPSILON * if x < y { y } else { x }
+    2.0 * f64::EPSILON * greater(x, y)
 }
 
 /// Depth (units) up to which a path only grazes a point.

@@ -50,7 +50,7 @@ pub struct Run {
 impl Run {
     /// A run that has not begun.
     pub fn new(maze: &Maze) -> Self {
-        Self { goal: maze.goal, goal_radius: maze.goal_radius, phase: Phase::Ready, n_ticks: 0 }
+        Self { goal: maze.goal(), goal_radius: maze.goal_radius(), phase: Phase::Ready, n_ticks: 0 }
     }
 
     /// Where the run stands.
@@ -63,7 +63,7 @@ impl Run {
         self.n_ticks
     }
 
-    /// Takes note of one tick: the tilt it was made under, the ball's way in it, and what the engine reported.
+    /// Takes note of one tick: the tilt it was made under, where the ball was before and after it, and what the engine reported.
     pub fn observe(
         &mut self,
         tilt: Tilt,
@@ -80,7 +80,7 @@ impl Run {
         }
         if self.phase == Phase::Playing {
             self.n_ticks += 1;
-            // The whole way counts: a fast ball must not jump over the goal between two ticks.
+            // The whole line counts: a fast ball must not jump over the goal between two ticks.
             if distance_to_segment(self.goal, from, to) < self.goal_radius {
                 self.phase = Phase::Finished;
                 events[2] = Some(Event::Finished(self.n_ticks));
@@ -92,10 +92,10 @@ impl Run {
 
 /// From a point to the nearest point of a segment.
 fn distance_to_segment(point: Vector2<f64>, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
-    let way = to - from;
-    let length_squared = way.norm_squared();
-    let part = if 0.0 < length_squared { (point - from).dot(&way) / length_squared } else { 0.0 };
-    (point - (from + way * part.clamp(0.0, 1.0))).norm()
+    let line = to - from;
+    let length_squared = line.norm_squared();
+    let fraction = if 0.0 < length_squared { (point - from).dot(&line) / length_squared } else { 0.0 };
+    (point - (from + line * fraction.clamp(0.0, 1.0))).norm()
 }
 
 #[cfg(test)]
@@ -128,9 +128,9 @@ mod tests {
 
     #[test]
     fn a_ball_that_jumps_over_the_goal_in_one_tick_has_reached_it() {
-        let way = |y: f64| [Vector2::new(1.0, y), Vector2::new(5.0, y)];
-        assert_eq!(run().observe(TILTED, way(0.5), &Tick::default()).count(), 1);
-        assert_eq!(run().observe(TILTED, way(0.3), &Tick::default()).count(), 2);
+        let line = |y: f64| [Vector2::new(1.0, y), Vector2::new(5.0, y)];
+        assert_eq!(run().observe(TILTED, line(0.5), &Tick::default()).count(), 1);
+        assert_eq!(run().observe(TILTED, line(0.3), &Tick::default()).count(), 2);
     }
 
     #[test]

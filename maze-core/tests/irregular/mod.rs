@@ -285,7 +285,7 @@ impl Scene {
         let speed = draw.pick(&[0.0, 0.3, 3.0, 30.0, 1.0e3, 1.0e4]);
         let ball = Ball { position: start, velocity: draw.0.vector() * speed };
         let spec = BallSpec {
-            radius: Radius::new(radius)?,
+            radius: Radius::new(radius).ok()?,
             restitution: draw.pick(&[0.0, 1.0e-3, 0.5, 0.8, 0.8, 0.8, 0.998, 1.0]),
             rolling: if draw.chance(3.0) { BallSpec::ROLLING_SPHERE } else { BallSpec::POINT_MASS },
             resistance: if draw.chance(8.0) { draw.between(0.0, 1.0) } else { 0.0 },

@@ -272,7 +272,7 @@ fn ball_from(
     let span = || ball.span();
     let given = ball.get_ref();
     if let Some(units) = given.radius {
-        let radius = Radius::new(units).filter(|_| (1.0e-3..=1.0e3).contains(&units));
+        let radius = Radius::new(units).ok().filter(|_| (1.0e-3..=1.0e3).contains(&units));
         spec.radius = radius.ok_or_else(|| place.error(span(), "radius: expected 0.001 to 1000 units"))?;
     }
     if let Some(restitution) = given.restitution {

@@ -193,11 +193,11 @@ impl Scene {
             Walls::Rectangles(walls) => (Board::from_rectangles(walls.clone())?, None),
             Walls::Generated(recipe) => {
                 let maze = maze(extrude::extrude(&recipe.layout()?))?;
-                (Board::from_planes(&maze.planes), Some(maze.start))
+                (Board::from_planes(&maze.planes), Some(maze.start()))
             }
             Walls::Obj(bytes) => {
                 let maze = maze(import::obj::read(bytes)?)?;
-                (Board::from_planes(&maze.planes), Some(maze.start))
+                (Board::from_planes(&maze.planes), Some(maze.start()))
             }
         };
         let ball = self.ball.or(start.map(Ball::at)).ok_or(SceneError::NoBall)?;

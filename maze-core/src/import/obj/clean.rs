@@ -178,7 +178,7 @@ impl<'a> Faces<'a> {
         cleaned.push(b'f');
         for corner in &self.corners {
             let count = *corner as usize + 1;
-            self.n_used = if self.n_used < count { count } else { self.n_used };
+            self.n_used = self.n_used.max(count);
             // Writing to a Vec cannot fail.
             let _ = write!(cleaned, " {count}");
         }

@@ -2,7 +2,8 @@
 
 mod tones;
 
-use crate::layout::blocks::{Blocks, BlocksError};
+use crate::assembly::from_layout::BlocksError;
+use crate::layout::blocks::Blocks;
 use crate::{AssembleOptions, Maze};
 use tones::Tones;
 
@@ -232,7 +233,7 @@ mod tests {
         let options = AssembleOptions::default();
         let maze = read(width, height, &pixels, None).unwrap().maze(&options).unwrap();
         assert_eq!(maze.planes, blocks.maze(&options).unwrap().planes);
-        assert!(maze.solvable && maze.openings.len() == 2);
+        assert!(maze.is_solvable() && maze.openings.len() == 2);
     }
 
     #[test]
@@ -247,8 +248,8 @@ mod tests {
         let pixels: Vec<[u8; 3]> =
             (0..50 * 50).map(|i| [if wall(i % 50, i / 50) { 0 } else { 255 }; 3]).collect();
         let maze = read(50, 50, &pixels, None).unwrap().maze(&AssembleOptions::default()).unwrap();
-        assert!((maze.scale - 1.0 / 7.0).abs() < 1.0e-12, "{}", maze.scale);
-        assert!(maze.solvable && maze.openings.len() == 2);
+        assert!((maze.report.scale - 1.0 / 7.0).abs() < 1.0e-12, "{}", maze.report.scale);
+        assert!(maze.is_solvable() && maze.openings.len() == 2);
         assert!((maze.wall_height - crate::assembly::extrude::WALL_HEIGHT).abs() < 1.0e-9);
     }
 

@@ -3,6 +3,7 @@
 use super::SvgError;
 use super::numbers::{self, Token, Tokens, Transform};
 use super::style::{Named, Rgb, Sheets, Style};
+use crate::physics::numbers::{greater, lesser};
 use quick_xml::Reader as XmlReader;
 use quick_xml::events::{BytesStart, Event};
 use std::collections::BTreeMap;
@@ -70,8 +71,8 @@ impl Shape {
                 points.fold(None, |bounds: Option<[[f64; 2]; 2]>, point| {
                     let [low, high] = bounds.unwrap_or([*point; 2]);
                     Some([
-                        [0, 1].map(|axis| if point[axis] < low[axis] { point[axis] } else { low[axis] }),
-                        [0, 1].map(|axis| if high[axis] < point[axis] { point[axis] } else { high[axis] }),
+                        [0, 1].map(|axis| lesser(low[axis], point[axis])),
+                        [0, 1].map(|axis| greater(high[axis], point[axis])),
                     ])
                 })
             }
@@ -114,8 +115,8 @@ impl Drawing {
     fn new(mut shapes: Vec<Shape>) -> Self {
         let bounds = |shapes: &[Shape]| {
             shapes.iter().filter_map(Shape::bounds).reduce(|[low, high], [a, b]| {
-                let low = [0, 1].map(|axis| if a[axis] < low[axis] { a[axis] } else { low[axis] });
-                [low, [0, 1].map(|axis| if high[axis] < b[axis] { b[axis] } else { high[axis] })]
+                let low = [0, 1].map(|axis| lesser(low[axis], a[axis]));
+                [low, [0, 1].map(|axis| greater(high[axis], b[axis]))]
             })
         };
         let mut paper = [255; 3];

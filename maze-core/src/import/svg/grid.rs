@@ -2,8 +2,9 @@
 
 use super::drawing::{Chain, Source};
 use super::{SvgError, SvgMaze};
-use crate::layout::blocks::to_f64;
 use crate::layout::{Door, Layout, Side};
+use crate::physics::numbers::to_f64;
+use crate::physics::numbers::{greater, lesser};
 
 /// How far from a grid line, in cells, a wall may lie: drawings are rounded, to a tenth of a unit in cells of 16 or so.
 const OFF_GRID: f64 = 0.03;
@@ -193,11 +194,11 @@ impl Grid {
 /// of that. Gaps below `rounding`, a part of the widest, do not count. Values ascend and differ.
 fn cell_size(axes: &[&[f64]], divisor: usize, rounding: f64) -> Option<f64> {
     let gaps = || axes.iter().flat_map(|values| values.windows(2)).map(|pair| pair[1] - pair[0]);
-    let widest_gap = gaps().reduce(|a, b| if a < b { b } else { a })?;
+    let widest_gap = gaps().reduce(greater)?;
     let cells = gaps().filter(|gap| rounding * widest_gap <= *gap);
-    let narrowest = cells.reduce(|a, b| if b < a { b } else { a })?;
+    let narrowest = cells.reduce(lesser)?;
     let extents = axes.iter().map(|values| values[values.len() - 1] - values[0]);
-    let widest = extents.reduce(|a, b| if a < b { b } else { a })?;
+    let widest = extents.reduce(greater)?;
     // The many cells of the whole side tell the size better than one of them.
     let cell = widest / to_f64(nearest(widest * to_f64(divisor) / narrowest));
     let fits = |values: &&[f64]| values.iter().all(|value| is_near_whole((value - values[0]) / cell));
@@ -271,8 +272,10 @@ impl Walls {
             let y = height - 1 - row;
             for line in (0..=width).filter(|line| !self.vertical[line * height + row]) {
                 match line {
-                    0 => all_known &= layout.open_door(Door { side: Side::Left, index: y }),
-                    _ if line == width => all_known &= layout.open_door(Door { side: Side::Right, index: y }),
+                    0 => all_known &= layout.open_door(Door { side: Side::Left, index: y }).is_ok(),
+                    _ if line == width => {
+                        all_known &= layout.open_door(Door { side: Side::Right, index: y }).is_ok()
+                    }
                     _ => layout.join(cell(line - 1, row), cell(line, row)),
                 }
             }
@@ -280,9 +283,9 @@ impl Walls {
         for line in 0..=height {
             for x in (0..width).filter(|x| !self.horizontal[line * width + x]) {
                 match line {
-                    0 => all_known &= layout.open_door(Door { side: Side::Top, index: x }),
+                    0 => all_known &= layout.open_door(Door { side: Side::Top, index: x }).is_ok(),
                     _ if line == height => {
-                        all_known &= layout.open_door(Door { side: Side::Bottom, index: x })
+                        all_known &= layout.open_door(Door { side: Side::Bottom, index: x }).is_ok()
                     }
                     _ => layout.join(cell(x, line - 1), cell(x, line)),
                 }

@@ -7,9 +7,11 @@ mod painted;
 mod style;
 
 use crate::assembly::assemble::AssembleOptions;
-use crate::layout::blocks::{Blocks, BlocksError, to_f64};
+use crate::assembly::from_layout::BlocksError;
+use crate::layout::blocks::Blocks;
 use crate::layout::{Layout, LayoutSizeError};
 use crate::maze::Maze;
+use crate::physics::numbers::to_f64;
 use drawing::Drawing;
 
 /// Why an SVG is no rectangular maze.

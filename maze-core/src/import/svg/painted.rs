@@ -4,6 +4,7 @@ use super::SvgError;
 use super::drawing::{Drawing, Form, Shape, has_area, is_coloured, is_same};
 use super::style::Rgb;
 use crate::layout::blocks::Blocks;
+use crate::physics::numbers::{greater, lesser};
 
 /// Edges nearer than this part of the drawing's size are one.
 const SAME_PART: f64 = 1.0e-5;
@@ -94,10 +95,8 @@ pub(super) fn walls(drawing: &Drawing) -> Result<Painted, SvgError> {
                 }
                 n_strokes += 1;
                 length += if is_wall { stroke_length } else { 0.0 };
-                let low = [0, 1]
-                    .map(|axis| if from[axis] < to[axis] { from[axis] } else { to[axis] } - width / 2.0);
-                let high = [0, 1]
-                    .map(|axis| if from[axis] < to[axis] { to[axis] } else { from[axis] } + width / 2.0);
+                let low = [0, 1].map(|axis| lesser(to[axis], from[axis]) - width / 2.0);
+                let high = [0, 1].map(|axis| greater(from[axis], to[axis]) + width / 2.0);
                 let ring = vec![low, [high[0], low[1]], high, [low[0], high[1]]];
                 areas.push(Area { is_wall, rings: vec![ring], is_even_odd: false });
             }
@@ -142,12 +141,12 @@ fn drawing_size(drawing: &Drawing) -> f64 {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for [a, b] in drawing.shapes.iter().filter_map(Shape::bounds) {
         for axis in [0, 1] {
-            low[axis] = if a[axis] < low[axis] { a[axis] } else { low[axis] };
-            high[axis] = if high[axis] < b[axis] { b[axis] } else { high[axis] };
+            low[axis] = lesser(low[axis], a[axis]);
+            high[axis] = greater(high[axis], b[axis]);
         }
     }
     let [x, y] = [high[0] - low[0], high[1] - low[1]];
-    if x < y { y } else { x }
+    greater(x, y)
 }
 
 /// The sides of a ring, the closing one included.

@@ -2,6 +2,7 @@
 
 use super::SvgError;
 use super::numbers::{self, Transform};
+use crate::physics::numbers::lesser;
 use simplecss::{AttributeOperator, Element, PseudoClass, StyleSheet};
 use std::str::FromStr;
 use svgtypes::Color;
@@ -217,7 +218,7 @@ impl Style {
             return None;
         }
         // Over white paper; more than all of it is all.
-        let opacity = if 1.0 < opacity { 1.0 } else { opacity };
+        let opacity = lesser(opacity, 1.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
         Some(rgb.map(|channel| (255.0 - (255.0 - f64::from(channel)) * opacity + 0.5) as u8))
     }

@@ -10,8 +10,10 @@ mod sides;
 mod signs;
 
 use crate::assembly::assemble::AssembleOptions;
-use crate::layout::blocks::{Blocks, BlocksError};
+use crate::assembly::from_layout::BlocksError;
+use crate::layout::blocks::Blocks;
 use crate::maze::Maze;
+use crate::navigation::ends::Endpoint;
 use grid::{BLANK, Grid, Line};
 use sides::Sides;
 use std::borrow::Cow;
@@ -154,12 +156,12 @@ pub enum TextError {
         sign: String,
     },
     /// Start or goal has no room.
-    #[error("{place}: the ball does not fit at the {name}: expected a free place between the walls")]
+    #[error("{place}: the ball does not fit at the {end}: expected a free place between the walls")]
     NoRoomAt {
         /// Of the sign.
         place: Place,
-        /// Start or goal.
-        name: &'static str,
+        /// Which of the two.
+        end: Endpoint,
     },
     /// Too wide.
     #[error("{place}: the line goes on: expected at most {max} cells", max = MAX_SIDE)]
@@ -253,8 +255,8 @@ impl TextMaze {
     /// Walls that make no maze, and a start or goal where the ball does not fit.
     pub fn maze(&self, options: &AssembleOptions) -> Result<Maze, TextError> {
         self.blocks.maze(options).map_err(|error| match error {
-            BlocksError::NoRoomAt { end, name } => match self.places[end] {
-                Some(place) => TextError::NoRoomAt { place, name },
+            BlocksError::NoRoomAt { end } => match self.places[end as usize] {
+                Some(place) => TextError::NoRoomAt { place, end },
                 None => error.into(),
             },
             other => other.into(),
@@ -423,8 +425,8 @@ fn blocks(grid: &Grid, reading: &signs::Reading) -> Option<(Blocks, bool)> {
     let mut high = [0, 0];
     for cell in (0..grid.cells.len()).filter(is_drawn) {
         for (axis, at) in [cell % grid.width, cell / grid.width].into_iter().enumerate() {
-            low[axis] = if at < low[axis] { at } else { low[axis] };
-            high[axis] = if high[axis] < at { at } else { high[axis] };
+            low[axis] = low[axis].min(at);
+            high[axis] = high[axis].max(at);
         }
     }
     let sides = [
@@ -475,10 +477,10 @@ mod tests {
     #[test]
     fn walls_are_where_the_text_has_them_and_start_and_goal_too() {
         let maze = maze(ROOMS);
-        assert_eq!(maze.scale, 1.0);
-        assert!(maze.solvable && maze.has_floor && maze.openings.is_empty());
-        assert_eq!((maze.start.x, maze.start.y), (-2.0, 1.0));
-        assert_eq!((maze.goal.x, maze.goal.y), (2.0, -1.0));
+        assert_eq!(maze.report.scale, 1.0);
+        assert!(maze.is_solvable() && maze.report.has_floor && maze.openings.is_empty());
+        assert_eq!((maze.start().x, maze.start().y), (-2.0, 1.0));
+        assert_eq!((maze.goal().x, maze.goal().y), (2.0, -1.0));
         let planes = Facing::ALL.map(|facing| maze.planes.n_planes(facing));
         // +x: the outer wall and the hook's right side; -x: the outer wall and the hook's two left ends; and so on.
         assert_eq!(planes, [2, 3, 3, 2]);
@@ -508,7 +510,7 @@ mod tests {
         let moved = maze(&format!("\n\n{indented}"));
         let maze = maze(ROOMS);
         assert_eq!(moved.planes, maze.planes);
-        assert_eq!((moved.start, moved.goal, moved.bounds), (maze.start, maze.goal, maze.bounds));
+        assert_eq!((moved.start(), moved.goal(), moved.bounds), (maze.start(), maze.goal(), maze.bounds));
     }
 
     #[test]
@@ -521,7 +523,7 @@ mod tests {
             .flat_map(|line: String| [line.clone() + "\n", line.replace(['S', 'G'], " ") + "\n"])
             .collect();
         let (maze, wide) = (maze(ROOMS), maze(&twice));
-        assert_eq!((wide.scale, wide.wall_height), (0.5, maze.wall_height));
+        assert_eq!((wide.report.scale, wide.wall_height), (0.5, maze.wall_height));
         assert_eq!(wide.planes, maze.planes);
     }
 
@@ -529,7 +531,7 @@ mod tests {
     fn without_letters_the_openings_are_start_and_goal() {
         let maze = maze("# ###\n# # #\n#   #\n### #\n");
         assert_eq!(maze.openings.len(), 2);
-        assert!(maze.solvable && maze.start.y > 1.0 && maze.goal.y < -1.0);
+        assert!(maze.is_solvable() && maze.start().y > 1.0 && maze.goal().y < -1.0);
     }
 
     #[test]
@@ -579,11 +581,11 @@ mod tests {
         // A ball that passes the slit is found; the usual one does not fit there.
         let maze = read.maze(&AssembleOptions::default()).unwrap();
         assert!(
-            maze.solvable && maze.passing_radius == crate::Radius::new(0.16),
+            maze.is_solvable() && maze.report.passing_radius == crate::Radius::new(0.16).ok(),
             "{:?}",
-            maze.passing_radius
+            maze.report.passing_radius
         );
-        let usual = AssembleOptions { ball_radius: crate::Radius::new(0.35), ..Default::default() };
+        let usual = AssembleOptions { ball_radius: crate::Radius::new(0.35).ok(), ..Default::default() };
         let error = read.maze(&usual).err().map(|error| error.to_string()).unwrap_or_default();
         assert!(error.starts_with("line 8, column 6: the ball does not fit at the start"), "{error}");
     }
@@ -591,6 +593,6 @@ mod tests {
     #[test]
     fn rooms_without_a_way_between_them_load_unsolvable() {
         let maze = maze("#####\n#S#G#\n# # #\n#####");
-        assert!(!maze.solvable);
+        assert!(!maze.is_solvable());
     }
 }

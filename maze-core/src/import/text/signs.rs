@@ -291,7 +291,7 @@ fn largest_region(grid: &Grid, is_free: impl Fn(usize) -> bool, ends: [Option<us
                 }
             }
         }
-        largest = if largest < size { size } else { largest };
+        largest = largest.max(size);
     }
     let joined = match ends {
         [Some(start), Some(goal)] => region[start] == region[goal],

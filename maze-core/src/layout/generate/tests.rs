@@ -1,6 +1,6 @@
 use super::kruskal::Parts;
 use super::*;
-use crate::layout::{Metrics, Ways};
+use crate::layout::{CorridorGraph, Metrics};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -129,7 +129,7 @@ fn wilson_draws_every_tree_of_a_3x3_grid_as_often_and_the_others_do_not() {
 fn mean_of(elitism: u8, river: u8, value: impl Fn(&Metrics) -> f64) -> f64 {
     let of_seed = |seed| {
         let recipe = Recipe { elitism, river, ..Recipe::new(30, 30, Algorithm::GrowingTree, seed) };
-        let ways = Ways::of_layout(&recipe.layout().unwrap());
+        let ways = CorridorGraph::of_layout(&recipe.layout().unwrap());
         let [start, goal] = ways.ends().unwrap();
         value(&Metrics::new(&ways, start, goal).unwrap())
     };

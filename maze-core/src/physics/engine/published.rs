@@ -277,7 +277,7 @@ mod tests {
         for restitution in [-0.1, 1.1, f64::NAN] {
             let spec = BallSpec { restitution, ..BallSpec::default() };
             let error = Published::new(planes.clone(), spec, Ball::default(), Published::TICK_S).unwrap_err();
-            assert_eq!(error.to_string(), "the restitution: expected a part, 0 to 1");
+            assert_eq!(error.to_string(), "the restitution: expected a fraction, 0 to 1");
         }
     }
 

@@ -1,5 +1,6 @@
 //! The distinct numbers that the planes of one axis use, sorted, and where a number stands among them.
 
+use crate::physics::numbers::{greater, lesser};
 use std::ops::Range;
 
 /// Coordinates of one axis, ascending: offsets of the planes across it, starts and ends of the planes along it.
@@ -80,7 +81,7 @@ impl Coordinates {
         values.shrink_to_fit();
         let mut coordinates = Self { values, ..Self::default() };
         let gaps = coordinates.values[..n_values].windows(2).map(|pair| pair[1] - pair[0]);
-        let least = gaps.fold(f64::INFINITY, |least, gap| if gap < least { gap } else { least });
+        let least = gaps.fold(f64::INFINITY, lesser);
         let span = coordinates.values[n_values.saturating_sub(1)] - coordinates.values[0];
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let wanted = (span / least) as usize;
@@ -132,8 +133,8 @@ impl Coordinates {
     /// The bucket of any number; the first or last one for numbers beyond the ends.
     fn bucket(&self, value: f64) -> usize {
         let place = (value - self.origin) * self.buckets_per_unit;
-        let place = if 0.0 < place { place } else { 0.0 };
-        let place = if place < self.last_bucket { place } else { self.last_bucket };
+        let place = greater(0.0, place);
+        let place = lesser(self.last_bucket, place);
         // The nearest whole number, in the lower half of the sum's bits.
         #[allow(clippy::cast_possible_truncation, reason = "the lower half is meant")]
         let bucket = (place + ROUNDS_TO_WHOLE).to_bits() as u32;

@@ -182,7 +182,7 @@ impl Group {
             row.range()
         } else {
             let bucket = rank.saturating_sub(row.base) >> row.shift;
-            let bucket = if bucket < row.last_bucket { bucket } else { row.last_bucket };
+            let bucket = bucket.min(row.last_bucket);
             let entry = row.begin as usize + bucket as usize;
             match self.table.get(entry..entry + 2) {
                 Some(&[from, to]) => from as usize..to as usize,

@@ -128,6 +128,15 @@ impl SortedPlanes {
         nearest.clearance()
     }
 
+    /// Whether a point lies inside a solid wall: behind all of the faces that are nearest to it. Needs a finite `point`.
+    pub fn is_inside_wall(&self, point: Vector2<f64>) -> bool {
+        let Some(Clearance { distance, .. }) = self.clearance(point) else { return false };
+        let is_in_front =
+            |plane: &Plane| 0.0 <= (point[plane.facing.axis()] - plane.offset) * plane.facing.sign();
+        // Widened, so that rounding does not hide the second face of a corner.
+        !self.planes_within(point, distance * WIDENED + f64::MIN_POSITIVE).any(|plane| is_in_front(&plane))
+    }
+
     /// The plain O(n) truth that [`SortedPlanes::clearance`] is tested against.
     pub fn clearance_scan(&self, centre: Vector2<f64>) -> Option<Clearance> {
         let mut nearest = Nearest::default();

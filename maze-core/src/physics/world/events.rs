@@ -6,6 +6,7 @@ use super::roll::{self, Pivot, tangent};
 use super::state::{Contact, presses};
 use super::{BallState, World};
 use crate::physics::ball::{Ball, OutOfRange};
+use crate::physics::numbers::greater;
 use crate::physics::roots::falls_through_zero;
 use crate::physics::sweep::{self, SweepQuery};
 use crate::physics::tick::{Hit, Log, Observer, RolledArc, Tick};
@@ -243,8 +244,8 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
             let pressed = acceleration.dot(&support);
             if pressed < 0.0 { -(acceleration - support * pressed).dot(&normal) } else { alone }
         });
-        let pressing = if alone < along { along } else { alone };
-        if 0.0 < pressing { pressing } else { 0.0 }
+        let pressing = greater(alone, along);
+        greater(0.0, pressing)
     }
 
     /// Puts the ball exactly onto a feature that it has reached, and changes its velocity. What a hit does to a velocity, at a face

@@ -7,6 +7,7 @@
 
 use super::carlson::r_f;
 use crate::physics::ball::Ball;
+use crate::physics::numbers::{greater, lesser};
 use crate::physics::roots::bracketed_root;
 use crate::physics::sorted_planes::{SortedPlanes, WIDENED};
 use crate::physics::tolerance::{self, ARC_ROUNDING, LEAST_ENERGY, PASSING, TANGENT};
@@ -163,7 +164,7 @@ impl Pivot<'_> {
         if 1.0 + snap / self.radius < level {
             return None;
         }
-        let level = if 1.0 < level { 1.0 } else { level };
+        let level = lesser(level, 1.0);
         let normal = outward * level + tangent(outward) * (arc.side * ((1.0 - level) * (1.0 + level)).sqrt());
         let along = self.point[1 - axis] + self.radius * normal[1 - axis];
         let way = tangent(normal) * arc.side;
@@ -260,7 +261,7 @@ impl Arc {
         let along = sine(self.top, normal) * self.side;
         // Below the middle nothing presses the ball onto the point.
         let is_ahead = self.begin - ARC_ROUNDING <= along && 0.0 <= self.top.dot(&normal);
-        is_ahead.then_some(if along < self.begin { self.begin } else { along })
+        is_ahead.then_some(greater(along, self.begin))
     }
 
     fn normal(&self, along: f64) -> Vector2<f64> {
@@ -309,7 +310,7 @@ impl Arc {
     /// Time from the start to a place (s).
     fn time_to(&self, along: f64) -> f64 {
         let time_s = self.clock(self.hand(along)) - self.clock(self.hand(self.begin));
-        if 0.0 < time_s { time_s } else { 0.0 }
+        greater(0.0, time_s)
     }
 
     /// Direction and speed after a time (s), which lies before the place `last`.

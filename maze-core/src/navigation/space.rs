@@ -1,22 +1,22 @@
-//! Where the ball's centre can be: the ground plan grown by the ball's radius, and the ways through it.
+//! The configuration space: where the ball's centre can be (the Minkowski sum of the walls and the ball), and paths through it.
 //!
-//! Walls are grown by a square and not by a disc, so a gap that the ball could only take diagonally counts as closed.
+//! The sum is with a square and not with a disc, so a gap that the ball could only take diagonally counts as closed.
 
 use crate::assembly::section::Section;
-use crate::layout::Ways;
+use crate::layout::CorridorGraph;
 use nalgebra::Vector2;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Rectangles of possible centres between all wall coordinates ± the radius.
 #[derive(Debug)]
-pub(crate) struct Reach {
+pub(crate) struct ConfigurationSpace {
     xs: Vec<f64>,
     ys: Vec<f64>,
     free: Vec<bool>, // row by row
 }
 
-/// Length of the way to every cell (units, from centre to centre); infinite where there is none.
+/// Length of the path to every cell (units, from centre to centre); infinite where there is none.
 #[derive(Clone, Debug)]
 pub(crate) struct Distances(Vec<f64>);
 
@@ -46,7 +46,7 @@ fn split(coordinates: &[f64]) -> Vec<f64> {
     pieces
 }
 
-impl Reach {
+impl ConfigurationSpace {
     pub(crate) fn new(section: &Section, radius: f64) -> Self {
         let grown = |values: &[f64]| {
             let mut grown: Vec<f64> =
@@ -138,16 +138,16 @@ impl Reach {
 
     /// The corridors that lead from a free cell, and which place of theirs each of these two cells is; `None` when the ball
     /// has room to pass to the side somewhere (four free cells around a corner), so that it is no maze of corridors alone,
-    /// and when no way leads from one cell to the other.
-    pub(crate) fn ways(&self, from: usize, to: usize) -> Option<(Ways, [usize; 2])> {
+    /// and when no path leads from one cell to the other.
+    pub(crate) fn corridors(&self, from: usize, to: usize) -> Option<(CorridorGraph, [usize; 2])> {
         let n_x = self.n_x();
-        let mut ways = Ways::default();
+        let mut graph = CorridorGraph::default();
         let mut place_of = vec![usize::MAX; self.free.len()];
         let mut cells = vec![from]; // by place
         place_of[from] = 0;
         let mut n_done = 0;
         while let Some(&cell) = cells.get(n_done) {
-            ways.push(self.middle(cell).into());
+            graph.push(self.middle(cell).into());
             n_done += 1;
             for next in self.neighbours(cell) {
                 if place_of[next] == usize::MAX {
@@ -165,11 +165,11 @@ impl Reach {
             {
                 return None;
             }
-            right.inspect(|right| ways.join(place, place_of[*right], 0));
-            above.inspect(|above| ways.join(place, place_of[*above], 2));
+            right.inspect(|right| graph.join(place, place_of[*right], 0));
+            above.inspect(|above| graph.join(place, place_of[*above], 2));
         }
         let goal = place_of[to];
-        (goal != usize::MAX).then_some((ways, [0, goal]))
+        (goal != usize::MAX).then_some((graph, [0, goal]))
     }
 
     /// A cell of the connected region with the largest area; `None` when nothing is free.
@@ -208,7 +208,7 @@ impl Reach {
         (self.xs[i + 1] - self.xs[i]) * (self.ys[j + 1] - self.ys[j])
     }
 
-    /// Shortest ways from one free cell to all others (Dijkstra, between the cells' middles).
+    /// Shortest paths from one free cell to all others (Dijkstra, between the cells' middles).
     pub(crate) fn distances_from(&self, start: usize) -> Distances {
         let mut distances = vec![f64::INFINITY; self.free.len()];
         distances[start] = 0.0;
@@ -216,7 +216,7 @@ impl Reach {
         let mut queue = BinaryHeap::from([Reverse((0.0_f64.to_bits(), start))]);
         while let Some(Reverse((bits, cell))) = queue.pop() {
             if bits != distances[cell].to_bits() {
-                continue; // reached earlier by a shorter way
+                continue; // reached earlier by a shorter path
             }
             for next in self.neighbours(cell) {
                 let distance = distances[cell] + (self.middle(next) - self.middle(cell)).norm();
@@ -231,12 +231,12 @@ impl Reach {
 }
 
 impl Distances {
-    /// Length of the way to this cell; infinite when there is none.
+    /// Length of the path to this cell; infinite when there is none.
     pub(crate) fn to(&self, cell: usize) -> f64 {
         self.0[cell]
     }
 
-    /// The farthest cell that has a way, the first one on a tie.
+    /// The farthest cell that has a path, the first one on a tie.
     pub(crate) fn farthest(&self) -> usize {
         let reached = self.0.iter().enumerate().filter(|(_, distance)| distance.is_finite());
         reached.rev().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(cell, _)| cell)

@@ -10,7 +10,7 @@ const NONE: u32 = u32::MAX;
 /// A maze as places in the plane joined to at most one neighbour to the right, to the left, above and below: the cells of
 /// a layout, or the stretches of a corridor that a ball can be in.
 #[derive(Clone, Debug, Default)]
-pub struct Ways {
+pub struct CorridorGraph {
     points: Vec<[f64; 2]>,
     links: Vec<[u32; 4]>, // of each place; direction d leads back by d ^ 1; directions 0 and 1 along x, 2 and 3 along y
 }
@@ -25,7 +25,7 @@ pub(super) struct Step {
     pub(super) length: f64,
 }
 
-impl Ways {
+impl CorridorGraph {
     /// A layout's cells, `y * width + x`, one apart.
     #[allow(clippy::cast_precision_loss, reason = "a layout has at most 2^20 cells")]
     pub fn of_layout(layout: &Layout) -> Self {

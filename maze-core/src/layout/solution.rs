@@ -1,6 +1,6 @@
 //! The shortest way through a layout.
 
-use super::{Layout, Ways};
+use super::{CorridorGraph, Layout};
 
 impl Layout {
     /// The way from start to goal as indices `y * width + x`: of the shortest ways between any two doors the longest one,
@@ -12,7 +12,7 @@ impl Layout {
         if ends.len() < 2 {
             ends.extend(0..self.width * self.height);
         }
-        let ways = Ways::of_layout(self);
+        let ways = CorridorGraph::of_layout(self);
         // Two sweeps: the farthest from anywhere is one end of the longest way (exact where ways do not branch and join).
         let farthest_from = |cell: usize| {
             let distances = ways.distances_from(&[cell]);
@@ -30,7 +30,7 @@ impl Layout {
     pub fn shortest_way(&self, from: usize, to: usize) -> Option<Vec<usize>> {
         let n_cells = self.width * self.height;
         let known = from < n_cells && to < n_cells;
-        known.then(|| Ways::of_layout(self).solve(from, to))?.map(|solution| solution.places)
+        known.then(|| CorridorGraph::of_layout(self).solve(from, to))?.map(|solution| solution.places)
     }
 }
 
