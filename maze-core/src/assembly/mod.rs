@@ -7,6 +7,7 @@ pub(crate) mod error;
 pub mod extrude;
 pub(crate) mod frame;
 pub(crate) mod from_layout;
+#[cfg(feature = "generate")]
 pub(crate) mod from_recipe;
 pub(crate) mod polygons;
 pub(crate) mod section;

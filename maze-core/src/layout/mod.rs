@@ -3,6 +3,7 @@
 pub(crate) mod blocks;
 mod corridors;
 mod door;
+#[cfg(feature = "generate")]
 mod generate;
 mod metrics;
 mod solution;
@@ -10,6 +11,7 @@ mod solve;
 
 pub use corridors::CorridorGraph;
 pub use door::{Door, NoSuchDoor, Side};
+#[cfg(feature = "generate")]
 pub use generate::{
     Algorithm, EllerRow, EllerRows, Recipe, RecipeError, UnknownAlgorithm, recursive_backtracker,
 };

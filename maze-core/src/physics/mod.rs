@@ -2,6 +2,7 @@
 //! times of impact, contacts, the engines.
 
 pub(crate) mod ball;
+#[cfg(feature = "maze")]
 pub(crate) mod bounds;
 pub mod contact;
 pub mod engine;
