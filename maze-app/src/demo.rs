@@ -14,7 +14,7 @@ pub(crate) struct Demo {
 }
 
 impl Demo {
-    /// Fails for a maze with no way to the goal.
+    /// Fails for a maze with no path to the goal.
     pub(crate) fn new(game: &Game, max_tilt_rad: f64) -> Result<Self, Failure> {
         let half_tangent_limit = (max_tilt_rad / 2.0).tan();
         let autopilot = Autopilot::new(game.maze(), half_tangent_limit).map_err(Failure::not_held)?;

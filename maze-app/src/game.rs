@@ -12,8 +12,8 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 /// How strongly the goal shines before and after it is reached.
 const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
 
-/// Part of its way to the middle of the goal that the ball covers in a tick once it has got there.
-const SETTLE_PART: f64 = 0.2;
+/// Fraction of its distance to the middle of the goal that the ball covers in a tick once it has got there.
+const SETTLE_FRACTION: f64 = 0.2;
 
 /// Owns what a run is made of; knows nothing of windows.
 pub(crate) struct Game {
@@ -227,19 +227,19 @@ impl Game {
 
     /// The ball comes to rest in the middle of the goal.
     fn settle(&mut self) -> Result<(), Failure> {
-        let way = (self.maze.goal() - self.previous.position) * SETTLE_PART;
-        self.roll_to(self.previous.position + way);
+        let step = (self.maze.goal() - self.previous.position) * SETTLE_FRACTION;
+        self.roll_to(self.previous.position + step);
         self.engine.place(Ball::at(self.current.position)).map_err(Failure::bad_input)
     }
 
-    /// Shows the ball there, its pattern turned by the way from where it was a tick ago.
+    /// Shows the ball there, its pattern turned by the distance from where it was a tick ago.
     fn roll_to(&mut self, position: Vector2<f64>) {
-        let way = position - self.previous.position;
+        let step = position - self.previous.position;
         self.current.position = position;
-        self.current.rotation = rolled(way, self.maze.ball_radius.units()) * self.previous.rotation;
+        self.current.rotation = rolled(step, self.maze.ball_radius.units()) * self.previous.rotation;
     }
 
-    /// Between the last two ticks, `alpha` of the way. A board in the player's hand is shown where the hand is.
+    /// Between the last two ticks, `alpha` of the step. A board in the player's hand is shown where the hand is.
     pub(crate) fn pose(&self, alpha: f64, held: Option<&TiltControl>) -> Pose {
         let (a, b) = (&self.previous, &self.current);
         Pose {
@@ -288,10 +288,10 @@ impl Game {
     }
 }
 
-/// The turn of a ball that rolls along `way` without slipping.
-fn rolled(way: Vector2<f64>, radius: f64) -> UnitQuaternion<f64> {
-    // About the horizontal axis on the left of the way: normal x way.
-    UnitQuaternion::from_scaled_axis(Vector3::new(-way.y, way.x, 0.0) / radius)
+/// The turn of a ball that rolls along `step` without slipping.
+fn rolled(step: Vector2<f64>, radius: f64) -> UnitQuaternion<f64> {
+    // About the horizontal axis on the left of the step: normal x step.
+    UnitQuaternion::from_scaled_axis(Vector3::new(-step.y, step.x, 0.0) / radius)
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "drawing needs no more than f32")]

@@ -6,18 +6,18 @@ use serde_json::{Value, json};
 
 /// Lines for a person; only what is known of this maze.
 pub(crate) fn lines(maze: &Maze) -> Vec<String> {
-    let Some(way_length) = maze.path_length() else { return Vec::new() };
+    let Some(path_length) = maze.path_length() else { return Vec::new() };
     let Some(metrics) = maze.metrics() else {
-        return vec![format!("way          {way_length:.1} corridors long")];
+        return vec![format!("path         {path_length:.1} corridors long")];
     };
     let Metrics { n_turns, n_dead_ends, n_junctions, n_crossroads, n_loops, .. } = metrics;
     let dead_ends = match n_dead_ends {
         0 => "dead ends    none".to_owned(),
-        n => format!("dead ends    {n}, on average {:.1} corridors off the way", metrics.dead_end_length),
+        n => format!("dead ends    {n}, on average {:.1} corridors off the path", metrics.dead_end_length),
     };
     vec![
         format!(
-            "way          {way_length:.1} corridors long (without walls {:.1}), {n_turns} turns, {}",
+            "path         {path_length:.1} corridors long (without walls {:.1}), {n_turns} turns, {}",
             metrics.directness * metrics.solution_length,
             solutions(&metrics)
         ),

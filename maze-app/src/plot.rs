@@ -14,7 +14,7 @@ const SIZE: (u32, u32) = (960, 640);
 
 const FONT: &str = "sans-serif";
 
-/// Room above the highest value, as a part of it.
+/// Room above the highest value, as a fraction of it.
 const HEADROOM: f64 = 1.15;
 
 /// An SVG.

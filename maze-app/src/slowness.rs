@@ -13,11 +13,11 @@ const MIN_FRAMES: usize = 6;
 /// A frame that takes longer is late: below 12 a second a ball cannot be steered.
 const LATE: Duration = Duration::from_millis(83);
 
-/// Part of them that were late where the game is called slow, and where no longer.
-const SLOW_PART: f64 = 0.5;
-const FAST_PART: f64 = 0.1;
+/// Fraction of them that were late where the game is called slow, and where no longer.
+const SLOW_FRACTION: f64 = 0.5;
+const FAST_FRACTION: f64 = 0.1;
 
-/// Frames behind each other, and the time that each of them could not make up for.
+/// Frames behind each other, and the time that each of them could not simulate.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Slowness {
     frames: VecDeque<[Duration; 2]>,
@@ -40,8 +40,8 @@ impl Slowness {
             return;
         }
         let is_late = |[elapsed, lost]: &&[Duration; 2]| LATE < *elapsed || !lost.is_zero();
-        let part = count(self.frames.iter().filter(is_late).count()) / count(self.frames.len());
-        self.is_slow = if self.is_slow { FAST_PART < part } else { SLOW_PART <= part };
+        let late = count(self.frames.iter().filter(is_late).count()) / count(self.frames.len());
+        self.is_slow = if self.is_slow { FAST_FRACTION < late } else { SLOW_FRACTION <= late };
     }
 
     /// After a pause, or a change of what a frame costs: what was says nothing about what comes.
@@ -49,7 +49,7 @@ impl Slowness {
         *self = Self::default();
     }
 
-    /// What is said while it is slow: the part of real time in steps of 5 %, which can be read, or the frames.
+    /// What is said while it is slow: the fraction of real time in steps of 5 %, which can be read, or the frames.
     pub(crate) fn told(&self) -> Option<String> {
         let [elapsed, lost] =
             [0, 1].map(|i| self.frames.iter().map(|frame| frame[i].as_secs_f64()).sum::<f64>());

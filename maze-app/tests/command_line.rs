@@ -84,7 +84,7 @@ fn a_maze_without_a_way_is_told_by_exit_status_1() {
     assert_eq!(output.status.code(), Some(1));
     assert!(stdout(&output).contains("solvable     false"));
     let stderr = String::from_utf8_lossy(&output.stderr);
-    assert!(stderr.ends_with("rooms.obj: no way leads from start to goal\n"), "{stderr}");
+    assert!(stderr.ends_with("rooms.obj: no path leads from start to goal\n"), "{stderr}");
 }
 
 #[test]
@@ -173,7 +173,7 @@ fn generate_knows_every_algorithm_and_prints_what_info_finds() {
         let generated = stdout(&maze_app(&arguments).args(algorithm).output().unwrap());
         let found = stdout(&maze_app(&["info", &out]).output().unwrap());
         let (_, numbers) = generated.split_once('\n').unwrap();
-        assert!(numbers.starts_with("way ") && numbers.contains("\ndifficulty "), "{generated}");
+        assert!(numbers.starts_with("path ") && numbers.contains("\ndifficulty "), "{generated}");
         assert!(found.contains(numbers), "{algorithm:?}: {numbers} in {found}");
         let metrics = json(&["info", &out, "--json"])["metrics"].clone();
         assert_eq!(metrics["loops"] == 0, !algorithm.contains(&"--braid"), "{algorithm:?}: {metrics}");

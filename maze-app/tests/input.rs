@@ -107,7 +107,7 @@ fn i2_i3_keys_work_by_their_place_on_every_layout_and_do_one_thing() {
             session.xdotool(&["keydown", place(key)]);
             session.wait_for(key, |state| FAR_DEGREES < sign * right_degrees(state));
             session.xdotool(&["keyup", place(key)]);
-            session.wait_for("the board to come back", |state| state.tilt_degrees() == 0.0);
+            session.wait_for("the board to return", |state| state.tilt_degrees() == 0.0);
         }
         assert!(
             (session.last().camera_distance - zoomed).abs() < 0.01 * whole,

@@ -13,7 +13,7 @@ const GOLDENS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");
 /// Two pictures are the same when few pixels differ by more than a rounding of colour: drivers of another version may
 /// place an edge a subpixel elsewhere, and an edge pixel then changes by up to a wall's contrast.
 const PIXEL_TOLERANCE: u8 = 12;
-const MAX_DIFFERENT_PART: f64 = 0.001;
+const MAX_DIFFERENT_FRACTION: f64 = 0.001;
 
 /// Goldens are small: large enough to recognise a brick, small enough to keep.
 const SIZE: &str = "480x270";
@@ -65,7 +65,7 @@ fn expect_golden_sized(name: &str, size: &str, arguments: &[&str]) {
     }
     let golden = decoded(&std::fs::read(&path).unwrap());
     let (part, where_different) = difference(&decoded(&png), &golden);
-    if MAX_DIFFERENT_PART < part {
+    if MAX_DIFFERENT_FRACTION < part {
         let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
         std::fs::write(target.join(format!("{name}.now.png")), &png).unwrap();
         where_different.save(target.join(format!("{name}.difference.png"))).unwrap();
@@ -141,12 +141,12 @@ fn the_same_command_gives_the_same_bytes() {
 fn the_tolerance_notices_a_degree_of_tilt_and_a_ball_that_has_moved() {
     let picture = decoded(&render(&[]));
     let (tilted, _) = difference(&picture, &decoded(&render(&["--tilt", "1,0"])));
-    assert!(MAX_DIFFERENT_PART < tilted, "{tilted}");
+    assert!(MAX_DIFFERENT_FRACTION < tilted, "{tilted}");
     let still = decoded(&render(&["--tilt", "12,-7", "--ticks", "25"]));
     let (moved, _) = difference(&still, &decoded(&render(&["--tilt", "12,-7", "--ticks", "28"])));
-    assert!(MAX_DIFFERENT_PART < moved, "{moved}");
+    assert!(MAX_DIFFERENT_FRACTION < moved, "{moved}");
     let (other_quality, _) = difference(&picture, &decoded(&render(&["--quality", "medium"])));
-    assert!(MAX_DIFFERENT_PART < other_quality, "{other_quality}");
+    assert!(MAX_DIFFERENT_FRACTION < other_quality, "{other_quality}");
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_ghost_is_where_its_engine_has_its_ball() {
     assert!(changed(&same, x, y) && !changed(&same, 5, 5) && !changed(&same, x, 5));
     let parts = [&same, &other].map(|picture| difference(&alone, picture).0);
     assert!(0.02 < parts[0] && parts[0] < 0.5, "as large as the ball: {parts:?}");
-    assert!(MAX_DIFFERENT_PART < difference(&same, &other).0, "the two engines differ");
+    assert!(MAX_DIFFERENT_FRACTION < difference(&same, &other).0, "the two engines differ");
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn mouse_and_keys_play_the_game() {
     let up = session.wait_for("an arrow key to tilt", |state| 10.0 < state.tilt_degrees());
     assert!(up.orientation[1] < 0.0, "down towards +y is a turn about -x: {up:?}");
     session.xdotool(&["keyup", "Up"]);
-    session.wait_for("the board to come back", |state| state.orientation == [1.0, 0.0, 0.0, 0.0]);
+    session.wait_for("the board to return", |state| state.orientation == [1.0, 0.0, 0.0, 0.0]);
     session.xdotool(&["key", "d"]);
     session.wait_for("a tap on D to be felt", |state| 0.5 < state.tilt_degrees());
 
@@ -175,7 +175,7 @@ const PIXEL_TOLERANCE: u8 = 6;
 
 /// Most pixels that may differ by more: the ball came to rest from another bounce, so its pattern and what a contact's panel
 /// says may differ in a last digit.
-const MAX_DIFFERENT_PART: f64 = 0.002;
+const MAX_DIFFERENT_FRACTION: f64 = 0.002;
 
 fn different_part(a: &Path, b: &Path) -> f64 {
     let [a, b] = [a, b].map(|path| image::open(path).unwrap().into_rgb8());
@@ -224,7 +224,7 @@ fn a_pause_holds_the_ticks_and_each_overlay_is_as_render_draws_it() {
             .status();
         assert!(status.unwrap().success());
         let part = different_part(&shot, &drawn);
-        if MAX_DIFFERENT_PART < part {
+        if MAX_DIFFERENT_FRACTION < part {
             let target = Path::new(env!("CARGO_TARGET_TMPDIR"));
             std::fs::copy(&shot, target.join(format!("{layer}.window.png"))).unwrap();
             std::fs::copy(&drawn, target.join(format!("{layer}.render.png"))).unwrap();

@@ -105,16 +105,18 @@ impl Totals {
         let depth = (depth(case.planes, after.position, radius) - rounding(after.position)) / radius;
         self.deepest = self.deepest.max(depth);
         self.n_penetrations += u64::from(LIMIT < depth);
-        let pull = case.acceleration;
+        let acceleration = case.acceleration;
         // Heights are counted from near by, so that they do not drown in the coordinates.
-        let energy =
-            |ball: Ball| ball.velocity.norm_squared() / 2.0 - pull.dot(&(ball.position - before.position));
-        let scale = before.velocity.norm_squared() + after.velocity.norm_squared() + pull.norm() * 20.0;
+        let energy = |ball: Ball| {
+            ball.velocity.norm_squared() / 2.0 - acceleration.dot(&(ball.position - before.position))
+        };
+        let scale =
+            before.velocity.norm_squared() + after.velocity.norm_squared() + acceleration.norm() * 20.0;
         self.n_energy_gains += u64::from(LIMIT * scale < energy(after) - energy(before));
         self.n_tunnels += u64::from(case.has_tunnelled);
         if n_faults < self.n_faults() && self.first_fault.is_none() {
             self.first_fault = Some(format!(
-                "{}, {:?}, acceleration {pull:?}: {before:?} -> {after:?}, {tick:?}",
+                "{}, {:?}, acceleration {acceleration:?}: {before:?} -> {after:?}, {tick:?}",
                 context(),
                 case.spec
             ));
@@ -143,15 +145,16 @@ impl Observer for Crossings<'_> {
         let to = path.at(duration_s);
         for plane in self.planes {
             let axis = plane.facing.axis();
-            let [from, speed, pull] = [path.position, path.velocity, path.acceleration].map(|v| v[axis]);
+            let [from, speed, acceleration] =
+                [path.position, path.velocity, path.acceleration].map(|v| v[axis]);
             // A path that stays on one side, as told by its ends and by its turning point.
-            let turn = if pull == 0.0 { from } else { from - speed * speed / (2.0 * pull) };
+            let turn = if acceleration == 0.0 { from } else { from - speed * speed / (2.0 * acceleration) };
             let lowest = from.min(to[axis]).min(turn);
             let highest = from.max(to[axis]).max(turn);
             if plane.offset < lowest || highest < plane.offset {
                 continue;
             }
-            let (gap, half) = (from - plane.offset, pull / 2.0);
+            let (gap, half) = (from - plane.offset, acceleration / 2.0);
             let root = (speed * speed - 4.0 * half * gap).max(0.0).sqrt();
             // Both roots of gap + speed t + half t², by the form of each that does not cancel.
             let sum = -(speed + root.copysign(speed)) / 2.0;
@@ -193,9 +196,9 @@ fn cell_of(layout: &Layout, from_corner: Vector2<f64>) -> Option<(usize, usize)>
     free.then_some((i, j))
 }
 
-/// Whether one tick can have led from one cell to the other: through passages, by a way no longer than the ball's.
-fn is_joined(layout: &Layout, from: (usize, usize), to: (usize, usize), way: f64) -> bool {
-    let n_cells = (way / extrude::CORRIDOR).ceil() + 2.0;
+/// Whether one tick can have led from one cell to the other: through passages, by a path no longer than the ball's.
+fn is_joined(layout: &Layout, from: (usize, usize), to: (usize, usize), distance: f64) -> bool {
+    let n_cells = (distance / extrude::CORRIDOR).ceil() + 2.0;
     let mut reached = std::collections::BTreeSet::from([from]);
     let mut edge = vec![from];
     let mut n = 0.0;
@@ -232,17 +235,17 @@ fn run_maze(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box<dyn 
             engine.place(Ball { position: engine.ball().position, velocity: noise.vector() * speed })?;
         }
         let strength = if n % 7000 < 1000 { 1000.0 } else { 5.0 };
-        let pull = noise.vector() * strength;
+        let acceleration = noise.vector() * strength;
         let before = engine.ball();
-        let tick = engine.tick(pull)?;
+        let tick = engine.tick(acceleration)?;
         let after = engine.ball();
         let [from, to] = [before, after].map(|state| cell_of(&layout, state.position - maze.bounds.low));
-        let way = (before.velocity.norm() + pull.norm() * TICK_S) * TICK_S;
+        let distance = (before.velocity.norm() + acceleration.norm() * TICK_S) * TICK_S;
         let has_tunnelled = match (from, to) {
-            (Some(from), Some(to)) => !is_joined(&layout, from, to, way),
+            (Some(from), Some(to)) => !is_joined(&layout, from, to, distance),
             _ => true,
         };
-        let case = Case { planes: &planes, spec, acceleration: pull, has_tunnelled };
+        let case = Case { planes: &planes, spec, acceleration, has_tunnelled };
         totals.judge(&case, &tick, [before, after], || format!("maze {seed}, tick {n}"));
     }
     Ok(())
@@ -254,12 +257,12 @@ fn run_irregular(seed: u64, n_ticks: u64, totals: &mut Totals) -> Result<(), Box
     let mut engine = Continuous::new(planes, scene.spec, scene.ball, scene.tick_s)?;
     let radius = scene.spec.radius.units();
     totals.n_scenes += 1;
-    for (n, pull) in (0..n_ticks).zip(scene.pulls(seed)) {
+    for (n, acceleration) in (0..n_ticks).zip(scene.accelerations(seed)) {
         let before = engine.ball();
         let mut watch = Crossings { planes: &scene.planes, radius, has_crossed: false, n_rolls: 0 };
-        let tick = engine.tick_observed(pull, &mut watch)?;
+        let tick = engine.tick_observed(acceleration, &mut watch)?;
         totals.n_rolls += watch.n_rolls;
-        let acceleration = pull * scene.spec.rolling;
+        let acceleration = acceleration * scene.spec.rolling;
         let is_outside = irregular::HALF < (engine.ball().position - scene.middle).amax();
         let has_tunnelled = watch.has_crossed || is_outside;
         let case = Case { planes: &scene.planes, spec: scene.spec, acceleration, has_tunnelled };

@@ -88,7 +88,7 @@ pub use import::printable::printable;
 #[cfg(feature = "maze")]
 pub use {
     assembly::assemble::{AssembleOptions, Stage},
-    assembly::draft::SectionError,
+    assembly::draft::PlanError,
     assembly::error::{AssembleError, Misfit},
     assembly::from_layout::BlocksError,
     assembly::polygons::{PolygonMesh, UpAxis},

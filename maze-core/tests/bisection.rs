@@ -57,7 +57,7 @@ proptest! {
         queries in prop::collection::vec((facing(), coordinate(), coordinate(), 0.01..2.0_f64), 10),
     ) {
         let directed = SortedPlanes::new(planes).unwrap();
-        let plain = directed.clone().without_directories();
+        let plain = directed.clone().without_bucket_index();
         for (facing, x, y, radius) in queries {
             let centre = Vector2::new(x, y);
             for sorted in [&directed, &plain] {

@@ -10,8 +10,8 @@ use nalgebra::Vector2;
 use noise::Noise;
 use std::sync::Arc;
 
-/// Pulls as they come in play: steady ones, straight ones that press the ball onto walls, none at all, sudden turns.
-fn pull(noise: &mut Noise, n: u32, now: Vector2<f64>) -> Vector2<f64> {
+/// Accelerations as they come in play: steady ones, straight ones that press the ball onto walls, none at all, sudden turns.
+fn next_acceleration(noise: &mut Noise, n: u32, now: Vector2<f64>) -> Vector2<f64> {
     if !n.is_multiple_of(40) {
         return now;
     }
@@ -31,8 +31,8 @@ fn compare(planes: &Arc<SortedPlanes>, spec: BallSpec, start: Vector2<f64>, seed
     let (mut usual, mut searched) = (make(), make().without_cache());
     let (mut noise, mut acceleration, mut n_rests) = (Noise(seed), Vector2::zeros(), 0);
     for n in 0..20_000 {
-        acceleration = pull(&mut noise, n, acceleration);
-        // Let go for one tick now and then, so that what carries the ball changes while it slides.
+        acceleration = next_acceleration(&mut noise, n, acceleration);
+        // Let go for one tick now and then, so that its support changes while it slides.
         let acceleration = if n % 9 == 8 { Vector2::zeros() } else { acceleration };
         let tick = usual.tick(acceleration).unwrap();
         assert_eq!(tick, searched.tick(acceleration).unwrap(), "tick {n}, seed {seed}");

@@ -38,22 +38,23 @@ fn however_slowly_it_falls_a_ball_touches_the_face_it_lies_on() {
 }
 
 /// A floor and, `height` above it, the corner of a block, with a ball that is driven into the gap between them.
-fn wedge(height: f64, restitution: f64, velocity: [f64; 2], pull: [f64; 2]) -> Scene {
+fn wedge(height: f64, restitution: f64, velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
     let mut planes = ground(9.0);
     planes.extend(block([0.0, 5.0], [height, 9.0]));
-    Scene { restitution, ..Scene::new(planes, [-1.0, R], velocity, pull) }
+    Scene { restitution, ..Scene::new(planes, [-1.0, R], velocity, acceleration) }
 }
 
 #[test]
 fn a_ball_in_a_wedge_of_a_floor_and_a_corner_comes_to_rest_between_them() {
     for height in [0.36, 0.5, 0.6, 0.69, 0.699, 0.6999] {
         for restitution in [0.0, 1.0e-3, 0.5, 0.8, 0.9] {
-            for (velocity, pull) in
+            for (velocity, acceleration) in
                 [([1.0, 0.0], [2.0, -4.0]), ([0.0, 3.0], [2.0, -4.0]), ([4.0, 0.0], [2.0, -1.0])]
             {
-                let scene = wedge(height, restitution, velocity, pull);
+                let scene = wedge(height, restitution, velocity, acceleration);
                 let x = -(R * R - (height - R) * (height - R)).sqrt();
-                let about = format!("height {height}, restitution {restitution}, {velocity:?}, {pull:?}");
+                let about =
+                    format!("height {height}, restitution {restitution}, {velocity:?}, {acceleration:?}");
                 let ticks = scene.rests_at(90.0, x, R, &about);
                 let most = ticks.iter().map(|tick| tick.n_hits).max().unwrap();
                 assert!(most < 200, "{about}: {most} hits in a tick");
@@ -177,12 +178,12 @@ fn a_ball_that_stops_dead_below_an_overhang_stays_on_the_floor() {
 
 #[test]
 fn a_ball_rolls_down_a_step_under_any_pull() {
-    for pull in [1.0e3, 1.0e4, 1.0e5, 1.0e6] {
+    for acceleration in [1.0e3, 1.0e4, 1.0e5, 1.0e6] {
         for height in [0.05, 0.1, 0.2] {
             for k in 1..20 {
                 let mut planes = ground(0.0);
                 planes.extend(block([0.0, 99.0], [-2.0, -height]));
-                let scene = Scene::new(planes, [-0.1, R], [f64::from(k) * 0.25, 0.0], [0.0, -pull]);
+                let scene = Scene::new(planes, [-0.1, R], [f64::from(k) * 0.25, 0.0], [0.0, -acceleration]);
                 scene.run(0.9);
             }
         }
@@ -276,16 +277,17 @@ fn a_ball_that_comes_off_a_floor_and_meets_a_wall_at_the_same_instant_stays_outs
 #[test]
 fn a_roll_off_an_edge_follows_the_pendulum_whatever_the_tick() {
     // Lift-off where 3 g cos θ = 2 g + v² / r; the speed there is that of the energy; then a parabola.
-    for (radius, pull, speed) in
+    for (radius, acceleration, speed) in
         [(0.35, 4.0, 0.2), (0.25, 4.0, 0.01), (0.35, 300.0, 0.5), (1.0e-3, 4.0, 0.02)]
     {
-        let cos = 2.0 / 3.0 + speed * speed / (3.0 * pull * radius);
+        let cos = 2.0 / 3.0 + speed * speed / (3.0 * acceleration * radius);
         let sin = (1.0_f64 - cos * cos).sqrt();
-        let faster = (speed * speed + 2.0 * radius * pull * (1.0 - cos)).sqrt();
+        let faster = (speed * speed + 2.0 * radius * acceleration * (1.0 - cos)).sqrt();
         // Tall enough for a fall of half a second.
         let planes = block([-9.0, 0.0], [-99.0, 0.0]);
         let after = |tick_s: f64| {
-            let scene = Scene::new(planes.clone(), [-speed * 0.5, radius], [speed, 0.0], [0.0, -pull]);
+            let scene =
+                Scene::new(planes.clone(), [-speed * 0.5, radius], [speed, 0.0], [0.0, -acceleration]);
             Scene { radius, restitution: 0.0, tick_s, ..scene }.run(3.2).0
         };
         let finest = after(0.001);
@@ -293,11 +295,11 @@ fn a_roll_off_an_edge_follows_the_pendulum_whatever_the_tick() {
             let off = (after(tick_s).position - finest.position).norm();
             assert!(off < 1.0e-9, "radius {radius}, tick {tick_s}: {off}");
         }
-        // In flight the speed across the pull stays what it was at lift-off.
+        // In flight the speed across the acceleration stays what it was at lift-off.
         assert!((finest.velocity.x - faster * cos).abs() < 1.0e-10, "{finest:?}, {}", faster * cos);
         // ... and so does the point where the parabola left the arc.
         let fallen = (finest.position.x - radius * sin) / finest.velocity.x;
-        let y = radius * cos - faster * sin * fallen - pull * fallen * fallen / 2.0;
+        let y = radius * cos - faster * sin * fallen - acceleration * fallen * fallen / 2.0;
         assert!((finest.position.y - y).abs() < 1.0e-9 * y.abs().max(1.0), "{finest:?}, {y}");
     }
 }
@@ -349,8 +351,8 @@ fn at_every_whole_degree_a_ball_in_a_maze_with_wedges_comes_to_rest() {
     }
     for x in 1..=14 {
         for y in 1..=21 {
-            let pull = [f64::from(x), -f64::from(y)].map(|degrees| 9.81 * degrees.to_radians().sin());
-            let scene = Scene::new(planes.clone(), [-2.0, 1.5], [0.0, 0.0], pull);
+            let acceleration = [f64::from(x), -f64::from(y)].map(|degrees| 9.81 * degrees.to_radians().sin());
+            let scene = Scene::new(planes.clone(), [-2.0, 1.5], [0.0, 0.0], acceleration);
             let (ball, _) = scene.run(60.0);
             assert_eq!(ball.velocity, Vector2::zeros(), "tilt {x}, {y}: {ball:?}");
             assert!(ball.position.x.abs() < 3.0 && ball.position.y.abs() < 2.0, "tilt {x}, {y}: {ball:?}");

@@ -46,7 +46,7 @@ fn a_slow_approach_to_a_corner_that_does_not_turn_away_is_no_graze() {
     for slope in [1.0e-8, 1.0e-7, 3.0e-7, 4.9e-7] {
         for excess in [1.0e-9, 1.0e-6, 1.0e-4, 1.0e-3] {
             for brake in [0.1, 1.0, 100.0, 1000.0] {
-                // Just too fast for the pull of 1 unit/s² to hold it, and braked.
+                // Just too fast for the acceleration of 1 unit/s² to hold it, and braked.
                 let speed = (R + excess).sqrt();
                 let planes = block([-1.0, 0.0], [-1.0, 0.0]);
                 let scene = Scene::new(planes, [1.0e-9, R], [speed, -slope * speed], [-brake, -1.0]);
@@ -61,8 +61,8 @@ fn a_slow_approach_to_a_corner_that_does_not_turn_away_is_no_graze() {
 fn a_ball_that_has_come_over_its_face_by_a_rounding_slides_on_it() {
     let planes = block([-437.2, -436.6518059245237], [-997.4084468437193, -996.0]);
     let start = [-436.6518059245237, -997.7584468437193];
-    let pull = [-22.501134640744354, 113.94614226497342];
-    let (ball, _) = Scene::new(planes, start, [-6.571817446985296e-5, 0.0], pull).run(0.03);
+    let acceleration = [-22.501134640744354, 113.94614226497342];
+    let (ball, _) = Scene::new(planes, start, [-6.571817446985296e-5, 0.0], acceleration).run(0.03);
     assert_eq!((ball.position.y, ball.velocity.y), (start[1], 0.0));
     assert!((ball.velocity.x + 0.675_099_757).abs() < 1.0e-6, "{ball:?}");
 }
@@ -103,13 +103,13 @@ fn a_ball_that_is_pressed_exactly_along_a_corner_s_normal_comes_to_rest_there() 
 fn a_ball_between_two_opposite_corners_leaves_where_it_is_pulled() {
     let mut planes = block([19236.7, 19236.71351793893], [81171.8294264443, 81171.84]);
     planes.extend(block([19236.71360348213, 19236.72], [81171.80, 81171.81308904727]));
-    let (start, pull) =
+    let (start, acceleration) =
         ([19236.713560710534, 81171.82125774579], [-0.005229343783858636, 0.002975854944420495]);
-    let scene = Scene::new(planes, start, [0.0, 0.0], pull);
+    let scene = Scene::new(planes, start, [0.0, 0.0], acceleration);
     let mut engine =
         Scene { radius: 0.008168810514943522, restitution: 1.0e-3, tick_s: 1.0, ..scene }.engine();
     for _ in 0..2 {
-        assert_eq!(engine.tick(pull.into()).unwrap().dropped_s, 0.0);
+        assert_eq!(engine.tick(acceleration.into()).unwrap().dropped_s, 0.0);
     }
     assert!(engine.ball().velocity.x < -0.009, "{:?}", engine.ball());
 }
@@ -128,8 +128,8 @@ fn a_ball_that_is_pressed_along_one_normal_of_two_rests_on_both() {
     let mut planes = block([-1.4, -1.243959964769095], [0.5168876505938718, 0.7]);
     planes.extend(block([-0.3794370867597898, -0.2], [-0.1, 0.09003707567865266]));
     let start = [-0.8255844643254964, 0.2753384427904154];
-    let pull = [-8.495709211125341, 4.905000000000004].map(|pull| 0.3 * pull);
-    let scene = Scene::new(planes, start, [1.533124083701694e-5, 4.56655560775427e-5], pull);
+    let acceleration = [-8.495709211125341, 4.905000000000004].map(|acceleration| 0.3 * acceleration);
+    let scene = Scene::new(planes, start, [1.533124083701694e-5, 4.56655560775427e-5], acceleration);
     let (ball, ticks) = Scene { radius: 0.4830984156069126, tick_s: 0.001, ..scene }.run(0.003);
     assert!(ball.velocity == Vector2::zeros() && ticks.iter().all(|tick| tick.n_hits < 10), "{ball:?}");
 }

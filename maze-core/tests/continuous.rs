@@ -62,15 +62,15 @@ const FLOOR: [Plane; 1] = [Plane { facing: Facing::PlusY, offset: 0.0, start: -1
 
 #[test]
 fn bounce_k_reaches_e_to_the_2k_of_the_height() {
-    let (height, pull) = (1.0, 0.01);
+    let (height, acceleration) = (1.0, 0.01);
     for tick_s in TICKS_S {
         let mut engine = engine(&FLOOR, ball([0.0, R + height], [0.0, 0.0]), tick_s);
         let (mut n_hits, mut seen) = (0, 0);
         while n_hits <= 20 {
-            n_hits += engine.tick(Vector2::new(0.0, -pull)).unwrap().n_hits;
-            // In flight the height of the apex is the energy over the pull, whenever one looks.
+            n_hits += engine.tick(Vector2::new(0.0, -acceleration)).unwrap().n_hits;
+            // In flight the height of the apex is the energy over the acceleration, whenever one looks.
             let state = engine.ball();
-            let apex = state.position.y - R + state.velocity.y * state.velocity.y / (2.0 * pull);
+            let apex = state.position.y - R + state.velocity.y * state.velocity.y / (2.0 * acceleration);
             let exact = height * E.powi(2 * n_hits as i32);
             assert!((apex - exact).abs() < 1.0e-9, "tick {tick_s}, bounce {n_hits}: {apex}, exact {exact}");
             seen = seen.max(n_hits);
@@ -179,12 +179,12 @@ fn a_slow_ball_rolls_around_a_corner_and_keeps_its_energy() {
     // Pressed onto the top of a block and pushed gently over its right end, it rolls around the corner and falls.
     let block = block([-5.0, 0.0], [-5.0, 0.0]);
     let mut engine = engine(&block, ball([-0.5, R], [0.2, 0.0]), 0.01);
-    let pull = Vector2::new(0.0, -4.0);
-    let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
+    let acceleration = Vector2::new(0.0, -4.0);
+    let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - acceleration.dot(&state.position);
     let before = energy(engine.ball());
     let mut touched_after_end = false;
     for _ in 0..400 {
-        let tick = engine.tick(pull).unwrap();
+        let tick = engine.tick(acceleration).unwrap();
         assert_eq!((tick.n_hits, tick.dropped_s), (u32::from(tick.n_rests == 1), 0.0));
         let state = engine.ball();
         assert!((energy(state) - before).abs() < 1.0e-9, "{}", energy(state) - before);
@@ -295,9 +295,10 @@ fn numbers_that_leave_the_range_within_a_tick_are_refused_and_change_nothing() {
     let mut engine = engine(&FLOOR, ball([0.0, 0.5], [0.0, 0.0]), 0.03);
     run(&mut engine, [0.0, -1.0], 3.0);
     let rest = engine.ball();
-    for pull in [-f64::INFINITY, -1.0e200, f64::NAN] {
+    for acceleration in [-f64::INFINITY, -1.0e200, f64::NAN] {
         assert!(
-            engine.tick(Vector2::new(0.0, pull)).is_err() && engine.tick(Vector2::new(pull, -1.0)).is_err()
+            engine.tick(Vector2::new(0.0, acceleration)).is_err()
+                && engine.tick(Vector2::new(acceleration, -1.0)).is_err()
         );
         assert_eq!(engine.ball(), rest);
     }
@@ -337,23 +338,25 @@ fn a_million_random_ticks_never_penetrate_tunnel_or_gain_energy() {
                 engine.place(Ball { position: engine.ball().position, velocity }).unwrap();
             }
             let strength = if n % 7000 < 1000 { 1000.0 } else { 5.0 };
-            let pull = noise.vector() * strength;
-            let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
+            let acceleration = noise.vector() * strength;
+            let energy =
+                |state: Ball| state.velocity.norm_squared() / 2.0 - acceleration.dot(&state.position);
             let before = engine.ball();
-            let tick = engine.tick(pull).unwrap();
+            let tick = engine.tick(acceleration).unwrap();
             let after = engine.ball();
             assert!(after.position.iter().chain(&after.velocity).all(|value| value.is_finite()));
             assert!(!tick.recovered, "seed {seed}, tick {n}: {before:?} -> {after:?}");
             let depth = penetration(&maze.planes, after.position, radius.units());
             assert!(
                 depth < 1.0e-9,
-                "seed {seed}, tick {n}: {depth} deep, {before:?} -> {after:?}, pull {pull}"
+                "seed {seed}, tick {n}: {depth} deep, {before:?} -> {after:?}, acceleration {acceleration}"
             );
             let gain = energy(after) - energy(before);
-            let scale = before.velocity.norm_squared() + after.velocity.norm_squared() + pull.norm() * 20.0;
+            let scale =
+                before.velocity.norm_squared() + after.velocity.norm_squared() + acceleration.norm() * 20.0;
             assert!(
                 gain < 1.0e-9 * scale,
-                "seed {seed}, tick {n}: gain {gain}, {before:?} -> {after:?}, {pull}"
+                "seed {seed}, tick {n}: gain {gain}, {before:?} -> {after:?}, {acceleration}"
             );
             n_hits += u64::from(tick.n_hits);
             n_corner_hits += u64::from(tick.n_corner_hits);
@@ -381,8 +384,8 @@ fn a_marathon_of_20000_ticks_ends_in_the_same_bits_everywhere() {
     let mut n_hits = 0;
     for tick in 0..20_000 {
         // Held for ten ticks, so that there is rest, sliding and rolling around corners as well.
-        let pull = if tick % 10 < 5 { noise.vector() * 4.0 } else { Vector2::new(0.5, -2.0) };
-        n_hits += engine.tick(pull).unwrap().n_hits;
+        let acceleration = if tick % 10 < 5 { noise.vector() * 4.0 } else { Vector2::new(0.5, -2.0) };
+        n_hits += engine.tick(acceleration).unwrap().n_hits;
     }
     assert!(1000 < n_hits);
     let state = engine.ball();
@@ -405,7 +408,7 @@ fn rolling_resistance_stops_a_ball_where_mechanics_says_and_then_holds_it() {
     let stopped = engine.ball();
     assert_eq!(stopped.velocity, Vector2::zeros());
     run(&mut engine, [0.49, -4.0], 1.0);
-    assert_eq!(engine.ball(), stopped, "a pull below the resistance moves nothing");
+    assert_eq!(engine.ball(), stopped, "a acceleration below the resistance moves nothing");
     run(&mut engine, [0.51, -4.0], 1.0);
     assert!(stopped.position.x < engine.ball().position.x);
 }
@@ -417,10 +420,10 @@ fn with_rolling_resistance_energy_only_falls() {
     let mut engine = Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), 0.03).unwrap();
     let mut noise = Noise(5);
     for n in 0..20_000 {
-        let pull = noise.vector() * 4.0;
-        let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - pull.dot(&state.position);
+        let acceleration = noise.vector() * 4.0;
+        let energy = |state: Ball| state.velocity.norm_squared() / 2.0 - acceleration.dot(&state.position);
         let before = energy(engine.ball());
-        engine.tick(pull).unwrap();
+        engine.tick(acceleration).unwrap();
         // Rounding at energies below 100.
         assert!(energy(engine.ball()) <= before + 1.0e-12, "tick {n}");
     }
@@ -436,10 +439,10 @@ fn an_observer_sees_every_hit_and_changes_none() {
     let new = || Continuous::new(maze.planes.clone(), spec(E), Ball::at(maze.start()), 0.03).unwrap();
     let (mut watched, mut alone, mut noise) = (new(), new(), Noise(9));
     for _ in 0..3000 {
-        let pull = noise.vector() * 4.0;
+        let acceleration = noise.vector() * 4.0;
         let mut n_seen = 0;
         let tick = watched
-            .tick_observed(pull, &mut |hit: &maze_core::Hit| {
+            .tick_observed(acceleration, &mut |hit: &maze_core::Hit| {
                 n_seen += 1;
                 let from_wall = hit.after.position - hit.point;
                 assert!((from_wall - hit.normal * R).norm() < 1.0e-12, "{hit:?}");
@@ -447,7 +450,7 @@ fn an_observer_sees_every_hit_and_changes_none() {
                 assert!(0.0 <= hit.after.velocity.dot(&hit.normal), "{hit:?}");
             })
             .unwrap();
-        assert_eq!(tick, alone.tick(pull).unwrap());
+        assert_eq!(tick, alone.tick(acceleration).unwrap());
         assert_eq!((watched.ball(), n_seen), (alone.ball(), tick.n_hits));
     }
 }
@@ -462,9 +465,9 @@ fn image_of_the_path_is_the_path_of_the_image(symmetry: &Image) {
     let mut other = Continuous::new(image, spec(E), at, 0.03).unwrap();
     let mut noise = Noise(1);
     for n in 0..2000 {
-        let pull = noise.vector() * 4.0;
-        one.tick(pull).unwrap();
-        other.tick((symmetry.point)(pull)).unwrap();
+        let acceleration = noise.vector() * 4.0;
+        one.tick(acceleration).unwrap();
+        other.tick((symmetry.point)(acceleration)).unwrap();
         assert_eq!((symmetry.point)(one.ball().position), other.ball().position, "tick {n}");
         assert_eq!((symmetry.point)(one.ball().velocity), other.ball().velocity, "tick {n}");
     }

@@ -56,10 +56,11 @@ fn motion_in_a_maze_depends_on_the_ticks_length_only_through_corner_hits() {
         let maze = layout.maze(&AssembleOptions::default()).unwrap();
         let mut noise = Noise(seed);
         let start = Ball { position: maze.start(), velocity: noise.vector() * 6.0 };
-        let pull = noise.vector() * 4.0;
+        let acceleration = noise.vector() * 4.0;
         let after_a_second = |tick_s: f64, n_ticks: u32| {
             let mut engine = Continuous::new(maze.planes.clone(), spec(), start, tick_s).unwrap();
-            let n_corner_hits: u32 = (0..n_ticks).map(|_| engine.tick(pull).unwrap().n_corner_hits).sum();
+            let n_corner_hits: u32 =
+                (0..n_ticks).map(|_| engine.tick(acceleration).unwrap().n_corner_hits).sum();
             (engine.ball(), n_corner_hits)
         };
         let (finest, n_corner_hits) = after_a_second(0.001, 1000);

@@ -148,7 +148,7 @@ proptest! {
         let truth = sweep::first_impact_scan(&sorted, &query(&path, radius, until_s));
         prop_assert_eq!(sweep::first_impact(&sorted, &query(&path, radius, until_s)), truth);
         prop_assert!(truth.is_none_or(|impact| (0.0..=until_s).contains(&impact.time_s)), "{:?}", truth);
-        prop_assert_eq!(sweep::first_impact(&sorted.clone().without_directories(), &query(&path, radius, until_s)), truth);
+        prop_assert_eq!(sweep::first_impact(&sorted.clone().without_bucket_index(), &query(&path, radius, until_s)), truth);
         prop_assert_eq!(truth.map(|impact| impact.time_s), earliest(&sorted, &path, radius, until_s));
     }
 

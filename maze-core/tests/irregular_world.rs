@@ -25,9 +25,9 @@ fn a_ball_is_never_in_a_wall_and_gains_no_energy() {
     for seed in 0..300 {
         let Some(scene) = Scene::new(seed) else { continue };
         let (mut engine, radius) = (engine(&scene), scene.spec.radius.units());
-        for (n, pull) in scene.pulls(seed).take(400).enumerate() {
+        for (n, acceleration) in scene.accelerations(seed).take(400).enumerate() {
             let before = engine.ball();
-            let tick = engine.tick(pull).unwrap();
+            let tick = engine.tick(acceleration).unwrap();
             let after = engine.ball();
             let limit = 1.0e-9 * radius + rounding(after.position);
             let depth = depth(&scene.planes, after.position, radius);
@@ -35,7 +35,7 @@ fn a_ball_is_never_in_a_wall_and_gains_no_energy() {
                 depth <= limit,
                 "scene {seed}, tick {n}: {depth} deep, {before:?} -> {after:?}, {tick:?}"
             );
-            let acceleration = pull * scene.spec.rolling;
+            let acceleration = acceleration * scene.spec.rolling;
             let gain = (after.velocity.norm_squared() - before.velocity.norm_squared()) / 2.0
                 - acceleration.dot(&(after.position - before.position));
             let scale =
@@ -94,12 +94,12 @@ fn an_observer_sees_the_whole_tick_and_changes_nothing() {
     for seed in 5000..5200 {
         let Some(scene) = Scene::new(seed) else { continue };
         let (mut watched, mut alone) = (engine(&scene), engine(&scene));
-        for (n, pull) in scene.pulls(seed).take(300).enumerate() {
+        for (n, acceleration) in scene.accelerations(seed).take(300).enumerate() {
             let start = watched.ball().position;
             let mut stretches = Stretches { at: start, passed_s: 0.0, n_hits: 0, largest_gap: 0.0 };
-            let tick = watched.tick_observed(pull, &mut stretches).unwrap();
+            let tick = watched.tick_observed(acceleration, &mut stretches).unwrap();
             let about = format!("scene {seed}, tick {n}: {tick:?}");
-            assert_eq!((tick, stretches.n_hits), (alone.tick(pull).unwrap(), tick.n_hits), "{about}");
+            assert_eq!((tick, stretches.n_hits), (alone.tick(acceleration).unwrap(), tick.n_hits), "{about}");
             assert_eq!(watched.state(), alone.state(), "{about}");
             let missing_s = scene.tick_s - tick.dropped_s - stretches.passed_s;
             assert!(missing_s.abs() < 1.0e-12 * scene.tick_s, "{about}: {missing_s} s not shown");
@@ -145,20 +145,23 @@ impl Scaled {
         for seed in seeds {
             let Some(scene) = Scene::new(seed) else { continue };
             let (mut one, mut other) = (engine(&scene), engine(&self.of(&scene)));
-            for (n, pull) in scene.pulls(seed).take(300).enumerate() {
+            for (n, acceleration) in scene.accelerations(seed).take(300).enumerate() {
                 let state = one.state().clone();
-                let tick = one.tick(pull).unwrap();
-                let of_image = other.tick((self.image.point)(pull)).unwrap();
+                let tick = one.tick(acceleration).unwrap();
+                let of_image = other.tick((self.image.point)(acceleration)).unwrap();
                 let image = Tick {
                     hardest_hit_speed: tick.hardest_hit_speed * self.scale,
                     deepest_penetration: tick.deepest_penetration * self.scale,
                     ..tick
                 };
-                assert_eq!(image, of_image, "scene {seed}, tick {n}: {state:?}, pull {pull:?}");
+                assert_eq!(
+                    image, of_image,
+                    "scene {seed}, tick {n}: {state:?}, acceleration {acceleration:?}"
+                );
                 assert_eq!(
                     self.of_ball(one.ball()),
                     other.ball(),
-                    "scene {seed}, tick {n}: {state:?}, {pull:?}"
+                    "scene {seed}, tick {n}: {state:?}, {acceleration:?}"
                 );
                 n_rests += tick.n_rests;
             }

@@ -62,7 +62,7 @@ fn obj(width: usize, height: usize, seed: u64) -> String {
 }
 
 /// The accelerations of three ways to play.
-fn pulls(mode: u32, maze: &Maze, seed: u64) -> Box<dyn FnMut(Ball) -> Vector2<f64>> {
+fn accelerations(mode: u32, maze: &Maze, seed: u64) -> Box<dyn FnMut(Ball) -> Vector2<f64>> {
     let mut noise = Noise(seed);
     match mode {
         0 => {
@@ -81,13 +81,13 @@ fn pulls(mode: u32, maze: &Maze, seed: u64) -> Box<dyn FnMut(Ball) -> Vector2<f6
             })
         }
         _ => {
-            let (mut n, mut pull) = (0_u32, Vector2::zeros());
+            let (mut n, mut acceleration) = (0_u32, Vector2::zeros());
             Box::new(move |_| {
                 if n.is_multiple_of(40) {
-                    pull = noise.vector() * 3.4;
+                    acceleration = noise.vector() * 3.4;
                 }
                 n += 1;
-                pull
+                acceleration
             })
         }
     }
@@ -109,10 +109,10 @@ fn a_ball_stays_outside_of_every_wall_of_200_jittered_mazes() {
         for mode in 0..3 {
             let mut engine =
                 Continuous::new(maze.planes.clone(), spec, Ball::at(maze.start()), 0.03).unwrap();
-            let mut pull = pulls(mode, &maze, seed);
+            let mut acceleration = accelerations(mode, &maze, seed);
             for n in 0..1500 {
                 let before = engine.ball();
-                let tick = engine.tick(pull(before)).unwrap();
+                let tick = engine.tick(acceleration(before)).unwrap();
                 let after = engine.ball();
                 let depth = depth(&planes, after.position, radius);
                 let about = format!("maze {seed}, mode {mode}, tick {n}: {before:?} -> {after:?}, {tick:?}");

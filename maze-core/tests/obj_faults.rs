@@ -291,7 +291,7 @@ fn f16_what_is_off_axis_above_the_ball_refuses_nothing() {
     let with = maze(&faces);
     assert_eq!(with.planes, plain.planes);
     assert!(
-        with.report.ignored.iter().any(|note| note.reason == FaceReason::LowAndOpen),
+        with.report.ignored.iter().any(|note| note.reason == FaceReason::OffAxisBeyondCut),
         "{:?}",
         with.report.ignored
     );

@@ -10,14 +10,14 @@ pub const FIELD_OF_VIEW_RAD: f32 = 0.54;
 /// Angle between the line of sight and straight down.
 pub const PITCH_RAD: f32 = 0.36;
 
-/// Near plane as a part of the distance. A fitted board at its steepest stays beyond 0.3.
-const NEAR_PART: f32 = 0.05;
+/// Near plane as a fraction of the distance. A fitted board at its steepest stays beyond 0.3.
+const NEAR_FRACTION: f32 = 0.05;
 
-/// Far plane as a part of the distance. Reaches the top edge of the screen on a floor that leans away 45 degrees.
-const FAR_PART: f32 = 12.0;
+/// Far plane as a fraction of the distance. Reaches the top edge of the screen on a floor that leans away 45 degrees.
+const FAR_FRACTION: f32 = 12.0;
 
 /// How much of the half screen a fitted board may fill: leaves a border of 3 percent.
-const FIT_PART: f32 = 0.97;
+const FIT_FRACTION: f32 = 0.97;
 
 /// How much farther away than needed a fitted view may be for the sake of a level board in the middle.
 const MAX_STEP_BACK: f32 = 0.03;
@@ -84,8 +84,8 @@ impl Camera {
     pub fn clip_from_world(&self, aspect: f32) -> Matrix4<f32> {
         let view_from_world = Self::world_from_view().inverse().to_homogeneous()
             * Matrix4::new_translation(&-self.eye().coords);
-        let near = NEAR_PART * self.distance;
-        let far = FAR_PART * self.distance;
+        let near = NEAR_FRACTION * self.distance;
+        let far = FAR_FRACTION * self.distance;
         let clip_from_view = Perspective3::new(aspect, FIELD_OF_VIEW_RAD, near, far).to_homogeneous();
         HALF_DEPTH * clip_from_view * view_from_world
     }
@@ -109,7 +109,7 @@ const HALF_DEPTH: Matrix4<f32> = Matrix4::new(
 
 /// Half the height of the view at distance 1.
 fn half_view_y() -> f32 {
-    FIT_PART * (0.5 * FIELD_OF_VIEW_RAD).tan()
+    FIT_FRACTION * (0.5 * FIELD_OF_VIEW_RAD).tan()
 }
 
 /// The distances that the three kinds of edges ask for, for a camera that looks at the origin.

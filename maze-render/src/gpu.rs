@@ -184,7 +184,7 @@ impl Gpu {
     }
 
     /// True once the device is gone (driver reset, adapter unplugged): drop it and everything made with it, then
-    /// make a new [`Gpu`]. Looks for news each time it is asked.
+    /// make a new [`Gpu`]. Checks again at each call.
     pub fn is_lost(&self) -> bool {
         // Polling is what runs the device-lost callback; its own failure says nothing more.
         let _ = self.device.poll(wgpu::PollType::Poll);

@@ -1,4 +1,4 @@
-//! The sun, fixed in the world, and the matrix that looks along it.
+//! The sun, fixed in the world, and the view matrix along it.
 
 use nalgebra::{Matrix4, Vector3};
 

@@ -48,7 +48,7 @@ impl Mesh {
     pub(crate) fn of_maze(gpu: &Gpu, mesh: &SurfaceMesh, with_edges: bool) -> Result<Option<Self>, GpuError> {
         let max_bytes = gpu.device.limits().max_buffer_size;
         let (n_vertices, n_indices) = (mesh.vertices.len(), mesh.indices.iter().map(Vec::len).sum());
-        // Once before looking at any triangle, so that this bounds the work too, and once with the rim.
+        // Once before any triangle, so that this bounds the work too, and once with the rim.
         check_size(n_vertices, n_indices, max_bytes)?;
         check_indices(mesh)?;
         let rim_edges = floor_edges(mesh);
@@ -204,7 +204,7 @@ fn add_corner_strips(edges: &[Edge], vertices: &mut Vec<Vertex>, indices: &mut V
     }
 }
 
-/// Unit vector in the plane, to the right of the way from a to b: out of a triangle seen from above.
+/// Unit vector in the plane, to the right of the line from a to b: out of a triangle seen from above.
 fn outwards(a: &SurfaceVertex, b: &SurfaceVertex) -> Option<[f32; 2]> {
     let along = [b.position[0] - a.position[0], b.position[1] - a.position[1]];
     let length = along[0].hypot(along[1]);

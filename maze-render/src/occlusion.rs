@@ -16,7 +16,7 @@ const BLURS: [f32; 2] = [0.24, 0.03];
 /// Room around the board, so that the wide blur fades out inside the map.
 const MARGIN: f32 = 0.75;
 
-/// Most rows of texels that are looked at for all triangles together: 0.3 s at 10 ns each. Triangles that do not overlap
+/// Most rows of texels that are visited for all triangles together: 0.3 s at 10 ns each. Triangles that do not overlap
 /// and are a texel wide come to 2 `MAX_SIDE`² = 4.7 million, since a triangle's height is twice its area over its width.
 const MAX_ROW_VISITS: usize = 1 << 25;
 

@@ -3,7 +3,7 @@
 /// What is spent on a picture. Every tier shows the same things in the same places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
-    /// For drivers that draw with the processor: one look at a texture and one at a map of the floor's light for each
+    /// For drivers that draw with the processor: one sample of a texture and one of a map of the floor's light for each
     /// pixel, edges smoothed by drawing over them.
     Low,
     /// For graphics built into the processor.
@@ -19,9 +19,9 @@ pub(crate) struct Detail {
     pub(crate) n_samples: u32,
     /// Most texture samples along a slanted surface's long side, 1 to 16.
     pub(crate) anisotropy: u16,
-    /// Looks at the sun's map along each side of a shadow's soft edge, at least 1.
-    pub(crate) sun_looks: u8,
-    /// Side of the sun's map in texels. WebGL2 guarantees 2048: 0.015 units a texel on a 20-unit board, 0.15 on a
+    /// PCF taps of the shadow map along each side of a shadow's soft edge, at least 1.
+    pub(crate) pcf_taps: u8,
+    /// Side of the shadow map in texels. WebGL2 guarantees 2048: 0.015 units a texel on a 20-unit board, 0.15 on a
     /// 200-unit one.
     pub(crate) sun_map_side: u32,
 }
@@ -80,10 +80,10 @@ impl Quality {
     }
 
     pub(crate) fn detail(self, device: wgpu::DeviceType) -> Detail {
-        let high = Detail { n_samples: 4, anisotropy: 16, sun_looks: 3, sun_map_side: 2048 };
+        let high = Detail { n_samples: 4, anisotropy: 16, pcf_taps: 3, sun_map_side: 2048 };
         let detail = match self {
-            Self::Low => Detail { n_samples: 1, anisotropy: 1, sun_looks: 1, sun_map_side: 1 },
-            Self::Medium => Detail { anisotropy: 4, sun_looks: 2, ..high },
+            Self::Low => Detail { n_samples: 1, anisotropy: 1, pcf_taps: 1, sun_map_side: 1 },
+            Self::Medium => Detail { anisotropy: 4, pcf_taps: 2, ..high },
             Self::High => high,
         };
         // A driver that draws with the processor visits every texel in the pixel's footprint, whatever the limit (Mesa's

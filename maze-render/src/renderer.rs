@@ -206,7 +206,7 @@ impl Renderer {
             ..Default::default()
         };
         let compare = wgpu::SamplerDescriptor {
-            label: Some("sun map"),
+            label: Some("shadow map"),
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..linear.clone()
         };
@@ -234,7 +234,7 @@ impl Renderer {
                 wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::Sampler(&linear) },
                 wgpu::BindGroupEntry {
                     binding: 4,
-                    // Where nobody looks at the floor's light, any picture will do.
+                    // Where the floor's light is not sampled, any picture will do.
                     resource: wgpu::BindingResource::TextureView(
                         floor_light.as_ref().map_or(&view, |map| &map.view),
                     ),

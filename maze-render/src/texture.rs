@@ -237,7 +237,7 @@ impl Mipmapped {
 
 /// How a surface leans where its picture's light parts stand out and its dark ones, joints and pores, lie deep: red
 /// across, green down, 128 is level. Repeats at the edges, as the picture does.
-pub(crate) fn relief(image: &RgbImage) -> RgbImage {
+pub(crate) fn normal_map(image: &RgbImage) -> RgbImage {
     let (width, height) = image.dimensions();
     let light = |x: u32, y: u32| {
         let [r, g, b] = image.get_pixel(x % width, y % height).0.map(f32::from);
@@ -354,10 +354,13 @@ mod tests {
     fn a_bright_brick_rises_from_its_dark_joint() {
         // A joint two pixels wide, then brick.
         let picture = RgbImage::from_fn(8, 4, |x, _| image::Rgb(if x < 2 { [40; 3] } else { [200; 3] }));
-        let relief = relief(&picture);
-        assert!(150 < relief.get_pixel(1, 1)[0] && 150 < relief.get_pixel(2, 1)[0], "up to the right");
-        assert!(relief.get_pixel(7, 1)[0] < 100, "down again where the picture repeats");
-        assert_eq!(relief.get_pixel(5, 1).0, [128, 128, 0], "level");
+        let normal_map = normal_map(&picture);
+        assert!(
+            150 < normal_map.get_pixel(1, 1)[0] && 150 < normal_map.get_pixel(2, 1)[0],
+            "up to the right"
+        );
+        assert!(normal_map.get_pixel(7, 1)[0] < 100, "down again where the picture repeats");
+        assert_eq!(normal_map.get_pixel(5, 1).0, [128, 128, 0], "level");
     }
 
     #[test]

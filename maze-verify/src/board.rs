@@ -4,7 +4,7 @@ use maze_core::{Bounds, Facing, Plane, PlaneError, SortedPlanes};
 use nalgebra::Vector2;
 use std::sync::Arc;
 
-/// How far the solid outside of a maze with openings is taken to reach (units): enough that no ball looks behind it.
+/// How far the solid outside of a maze with openings is taken to reach (units): enough that no ball gets behind it.
 const MARGIN: f64 = 1.0;
 
 /// The plan cut along every coordinate at which a wall starts or ends.
@@ -63,7 +63,7 @@ impl Board {
 
     /// How deep a circle lies in the walls (units): radius less distance to the nearest point of any face, 0 when clear.
     ///
-    /// A plain look at every face, independent of every engine's search.
+    /// A scan of every face, independent of every engine's search.
     pub fn penetration(&self, centre: Vector2<f64>, radius: f64) -> f64 {
         let depth = |plane: Plane| {
             let (axis, along) = (plane.facing.axis(), centre[1 - plane.facing.axis()]);
@@ -73,14 +73,14 @@ impl Board {
         Facing::ALL.into_iter().flat_map(|facing| self.planes.planes(facing)).map(depth).fold(0.0, f64::max)
     }
 
-    /// Whether the centre of a ball can have got from one place to the other by a way no longer than `way` (units) without
+    /// Whether the centre of a ball can have got from one place to the other by a path no longer than `distance` (units) without
     /// crossing a wall; false also when it ended inside of one.
-    pub fn can_have_moved(&self, from: Vector2<f64>, to: Vector2<f64>, way: f64) -> bool {
+    pub fn can_have_moved(&self, from: Vector2<f64>, to: Vector2<f64>, distance: f64) -> bool {
         let (start, end) = match (self.grid.cell_at(from), self.grid.cell_at(to)) {
             // Beyond all walls there is nothing to cross.
             (None, None) => return true,
-            // A way into the plan is a way out of it.
-            (None, Some(end)) => return !self.grid.solid[end] && self.can_have_moved(to, from, way),
+            // A path into the plan is a path out of it.
+            (None, Some(end)) => return !self.grid.solid[end] && self.can_have_moved(to, from, distance),
             (Some(start), end) => (start, end),
         };
         if end.map_or(self.grid.solid[start], |end| self.grid.solid[end]) {
@@ -90,14 +90,14 @@ impl Board {
         let mut open = vec![start];
         seen[start] = true;
         while let Some(cell) = open.pop() {
-            let is_there =
-                end.map_or_else(|| self.grid.way_over_rim(cell, [from, to]) <= way, |end| end == cell);
+            let is_there = end
+                .map_or_else(|| self.grid.distance_over_rim(cell, [from, to]) <= distance, |end| end == cell);
             if is_there {
                 return true;
             }
             for next in self.grid.neighbours(cell) {
-                // Every point of the way lies within its length of the start.
-                if !seen[next] && !self.grid.solid[next] && self.grid.distance(next, from) <= way {
+                // Every point of the path lies within its length of the start.
+                if !seen[next] && !self.grid.solid[next] && self.grid.distance(next, from) <= distance {
                     seen[next] = true;
                     open.push(next);
                 }
@@ -286,9 +286,9 @@ impl Grid {
         beside.into_iter().flatten()
     }
 
-    /// Length of the shortest way between two points through a side of a cell that is a side of the whole plan, as if nothing
-    /// else was there; at most as long as any way. Infinite where the cell has none.
-    fn way_over_rim(&self, cell: usize, points: [Vector2<f64>; 2]) -> f64 {
+    /// Length of the shortest path between two points through a side of a cell that is a side of the whole plan, as if nothing
+    /// else was there; at most as long as any path. Infinite where the cell has none.
+    fn distance_over_rim(&self, cell: usize, points: [Vector2<f64>; 2]) -> f64 {
         let cell = [cell % self.n_columns(), cell / self.n_columns()];
         let mut shortest = f64::INFINITY;
         for axis in [0, 1] {

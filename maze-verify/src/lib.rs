@@ -11,8 +11,6 @@
 mod board;
 pub mod engine;
 
-#[cfg(feature = "report")]
-pub mod bars;
 #[cfg(feature = "bench")]
 pub mod bench;
 #[cfg(feature = "report")]
@@ -20,7 +18,7 @@ mod contender;
 #[cfg(feature = "report")]
 pub mod metrics;
 #[cfg(feature = "report")]
-pub mod relaxation;
+pub mod model_error;
 #[cfg(feature = "report")]
 pub mod report;
 #[cfg(feature = "report")]
@@ -29,6 +27,8 @@ pub mod results;
 mod run;
 #[cfg(feature = "report")]
 pub mod scene;
+#[cfg(feature = "report")]
+pub mod tolerances;
 
 pub use board::{Board, WallMesh};
 #[cfg(feature = "report")]

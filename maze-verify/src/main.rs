@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use maze_core::printable;
 use maze_verify::results::{Partition, Results};
 use maze_verify::scene::{self, Scene};
-use maze_verify::{Contender, bench, build, relaxation, report, run};
+use maze_verify::{Contender, bench, build, model_error, report, run};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -25,7 +25,7 @@ struct CommandLine {
 enum Command {
     /// Lists the scenes, the engines and the contenders of the benchmark
     List,
-    /// Runs scenes and says whether every bar holds (exit status 1 when not)
+    /// Runs scenes and says whether every tolerance holds (exit status 1 when not)
     ///
     /// Example: maze-verify run --scene 'corner-*' --out target/report
     Run(RunArguments),
@@ -152,16 +152,16 @@ fn run_scenes(arguments: &RunArguments) -> Result<bool, BadInput> {
     };
     let scenes = run(&part, &engines, &build, &on_scene).map_err(|error| BadInput(error.to_string()))?;
     // It is about the method and not about scenes: once a run, when the whole catalogue is asked for.
-    let wants_relaxation = arguments.partition.k == 1
+    let wants_model_error = arguments.partition.k == 1
         && arguments.files.is_empty()
         && arguments.scene.is_empty()
         && engines.contains(&Contender::RapierRolling);
-    let relaxation = match wants_relaxation {
-        true => Some(relaxation::measure().map_err(|error| BadInput(error.to_string()))?),
+    let model_error = match wants_model_error {
+        true => Some(model_error::measure().map_err(|error| BadInput(error.to_string()))?),
         false => None,
     };
     bar.finish_and_clear();
-    deliver(&Results::new(arguments.partition, n_scenes, scenes, relaxation), &arguments.output)
+    deliver(&Results::new(arguments.partition, n_scenes, scenes, model_error), &arguments.output)
 }
 
 fn chosen_scenes(arguments: &RunArguments) -> Result<Vec<Scene>, BadInput> {
@@ -251,7 +251,7 @@ struct SchemaOnly {
     schema: u32,
 }
 
-/// Prints and writes; whether every bar holds.
+/// Prints and writes; whether every tolerance holds.
 fn deliver(results: &Results, output: &OutputArguments) -> Result<bool, BadInput> {
     let json =
         serde_json::to_string(results).map_err(|error| BadInput(format!("results.json: {error}")))? + "\n";
@@ -270,10 +270,10 @@ fn deliver(results: &Results, output: &OutputArguments) -> Result<bool, BadInput
 
 fn closing_line(results: &Results, out: Option<&Path>) -> String {
     let n_missed = results.verdicts.iter().filter(|verdict| !verdict.missed.is_empty()).count();
-    let n_bars = results.verdicts.len();
+    let n_tolerances = results.verdicts.len();
     let verdict = match n_missed {
-        0 => format!("all {n_bars} bars hold"),
-        _ => format!("{n_missed} of {n_bars} bars missed"),
+        0 => format!("all {n_tolerances} tolerances hold"),
+        _ => format!("{n_missed} of {n_tolerances} tolerances missed"),
     };
     let report = out.map_or_else(String::new, |out| format!("; {}", out.join("report.html").display()));
     format!("\n{} scenes, {verdict}{report}\n", results.scenes.len())

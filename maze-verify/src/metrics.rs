@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 /// A part of the approach that an impulse must reach to be a bounce (1): above what f32 makes of a ball that slides.
-const BOUNCE_PART: f64 = 1.0e-3;
+const BOUNCE_FRACTION: f64 = 1.0e-3;
 
 /// Slower than this (units/s) to the end is rest: a corridor takes a hundred seconds.
 pub const REST_SPEED: f64 = 0.01;
@@ -15,7 +15,7 @@ pub const REST_SPEED: f64 = 0.01;
 /// And for at least this long (s).
 const REST_S: f64 = 0.1;
 
-/// A ball that shall lie at rest in the end is off by its way in this time (s) too.
+/// A ball that shall lie at rest in the end is off by its displacement in this time (s) too.
 const AFTER_REST_S: f64 = 1.0;
 
 /// Deeper than this (units) is counted as a tick in a wall: above the rounding of f32 at 10 units (1e-6), far below what
@@ -77,7 +77,8 @@ pub struct FirstBounce {
     /// Velocity after (units/s).
     pub velocity_out: [f64; 2],
     /// Acceleration of the centre in its tick (units/s²).
-    pub pull: f64,
+    #[serde(rename = "pull")]
+    pub acceleration: f64,
     /// Velocity after all bounces that begin within `SETTLE_TICKS` (units/s): in a concave corner one engine meets both
     /// walls in the tick in which another meets the first.
     pub settled: [f64; 2],
@@ -88,7 +89,7 @@ pub struct FirstBounce {
 pub struct Errors {
     /// Largest distance to the true position at any tick's end (units).
     pub position: f64,
-    /// The same by the way that the true ball has gone in the scene.
+    /// The same by the distance that the true ball covered in the scene.
     pub position_part: f64,
     /// Of the first bounce (1).
     pub restitution: Option<f64>,
@@ -127,7 +128,7 @@ pub struct Metrics {
     pub n_penetrating: u32,
     /// Deepest that the engine itself met before it pushed the ball out (units).
     pub own_penetration: f64,
-    /// Ticks that end where no way leads.
+    /// Ticks that end where no path leads.
     pub n_tunnels: u32,
     /// Largest gain of energy in one tick (units²/s²).
     pub energy_gain: f64,
@@ -135,7 +136,7 @@ pub struct Metrics {
     pub energy_gain_part: f64,
     /// From when on it rests (s).
     pub rest_s: Option<f64>,
-    /// Distance of the last place to where the ball lies by formula, and the way of a second at the last speed (units); only
+    /// Distance of the last place to where the ball lies by formula, and the distance of a second at the last speed (units); only
     /// where that place is known.
     pub rest_error: Option<f64>,
     /// Mean speed (units/s).
@@ -177,8 +178,8 @@ impl Track {
             let Some(normal) = impulse.try_normalize(0.0) else { continue };
             let approach = -pair[0].velocity.dot(&normal);
             // A ball that lies on a wall gets an impulse each tick, but does not come from anywhere.
-            if approach <= BOUNCE_PART * pair[0].velocity.norm() + 1.5 * gain.norm()
-                || impulse.norm() <= BOUNCE_PART * pair[0].velocity.norm() + 1.5 * gain.norm()
+            if approach <= BOUNCE_FRACTION * pair[0].velocity.norm() + 1.5 * gain.norm()
+                || impulse.norm() <= BOUNCE_FRACTION * pair[0].velocity.norm() + 1.5 * gain.norm()
             {
                 continue;
             }
@@ -199,9 +200,14 @@ impl Track {
         bounces
     }
 
-    /// Apexes above the wall that a constant acceleration pulls towards: of each flight the vertex of the parabola through
+    /// Apexes above the wall that a constant acceleration accelerations towards: of each flight the vertex of the parabola through
     /// its highest sample. They end with the first flight too short to tell.
-    pub fn apexes(&self, height: impl Fn(Vector2<f64>) -> f64, down: Vector2<f64>, pull: f64) -> Vec<f64> {
+    pub fn apexes(
+        &self,
+        height: impl Fn(Vector2<f64>) -> f64,
+        down: Vector2<f64>,
+        acceleration: f64,
+    ) -> Vec<f64> {
         let rising: Vec<f64> = self.balls.iter().map(|ball| -ball.velocity.dot(&down)).collect();
         let mut apexes = Vec::new();
         let mut last_top = 0;
@@ -214,7 +220,7 @@ impl Track {
             }
             last_top = index;
             let top = if rising[index - 1] < -rising[index] { index - 1 } else { index };
-            apexes.push(height(self.balls[top].position) + rising[top] * rising[top] / (2.0 * pull));
+            apexes.push(height(self.balls[top].position) + rising[top] * rising[top] / (2.0 * acceleration));
         }
         apexes
     }
@@ -233,7 +239,7 @@ impl Track {
         (last.position - place).norm() + last.velocity.norm() * AFTER_REST_S
     }
 
-    fn way(&self) -> f64 {
+    fn distance_covered(&self) -> f64 {
         self.balls.windows(2).map(|pair| (pair[1].position - pair[0].position).norm()).sum()
     }
 
@@ -258,7 +264,7 @@ fn angle_between_deg(a: Vector2<f64>, b: Vector2<f64>) -> Option<f64> {
     (slow < a.norm() && slow < b.norm()).then(|| a.perp(&b).atan2(a.dot(&b)).abs().to_degrees())
 }
 
-/// Height above the wall that a constant gravity pulls towards, if the scene has a closed form that knows it.
+/// Height above the wall that a constant gravity accelerations towards, if the scene has a closed form that knows it.
 fn drop_of(stage: &Stage) -> Option<(usize, f64, f64, f64)> {
     let crate::engine::Motion::Room { low, high } = stage.scene.truth.as_ref()? else { return None };
     if !stage.scene.gravity.is_constant() {
@@ -266,9 +272,9 @@ fn drop_of(stage: &Stage) -> Option<(usize, f64, f64, f64)> {
     }
     let acceleration = stage.scene.gravity.acceleration(0.0) * stage.scene.spec.rolling;
     let axis = acceleration.iamax();
-    let pull = acceleration[axis];
-    let (wall, sign) = if pull < 0.0 { (low[axis]?, 1.0) } else { (high[axis]?, -1.0) };
-    (pull != 0.0).then_some((axis, wall, sign, pull.abs()))
+    let acceleration = acceleration[axis];
+    let (wall, sign) = if acceleration < 0.0 { (low[axis]?, 1.0) } else { (high[axis]?, -1.0) };
+    (acceleration != 0.0).then_some((axis, wall, sign, acceleration.abs()))
 }
 
 /// Measures a track on its own, and against the truth and the continuous engine where these ran.
@@ -326,27 +332,27 @@ fn first_bounce(bounces: &[Bounce], track: &Track) -> Option<FirstBounce> {
         angle_deg: angle_deg(bounce.velocity_out),
         velocity_in: bounce.velocity_in.into(),
         velocity_out: bounce.velocity_out.into(),
-        pull: track.accelerations[bounce.first_tick].norm(),
+        acceleration: track.accelerations[bounce.first_tick].norm(),
         settled: last.velocity_out.into(),
     })
 }
 
-/// Whether no way that the ball can have gone in the tick leads from where it was to where it is.
+/// Whether no path that the ball can have gone in the tick leads from where it was to where it is.
 fn has_tunnelled(stage: &Stage, track: &Track, index: usize) -> bool {
     let (before, after) = (track.balls[index - 1], track.balls[index]);
     let gain = track.accelerations[index - 1].norm() * track.tick_s;
     let speed = before.velocity.norm().max(after.velocity.norm()) + gain;
-    // Twice the way, and what a push out of a wall may add.
-    let way = 2.0 * speed * track.tick_s + stage.scene.spec.radius.units();
-    !stage.board.can_have_moved(before.position, after.position, way)
+    // Twice the distance, and what a push out of a wall may add.
+    let distance = 2.0 * speed * track.tick_s + stage.scene.spec.radius.units();
+    !stage.board.can_have_moved(before.position, after.position, distance)
 }
 
 fn apexes_of(stage: &Stage, track: &Track) -> Vec<f64> {
-    let Some((axis, wall, sign, pull)) = drop_of(stage) else { return Vec::new() };
+    let Some((axis, wall, sign, acceleration)) = drop_of(stage) else { return Vec::new() };
     let radius = stage.scene.spec.radius.units();
     let mut down = Vector2::zeros();
     down[axis] = -sign;
-    track.apexes(|position| (position[axis] - wall) * sign - radius, down, pull)
+    track.apexes(|position| (position[axis] - wall) * sign - radius, down, acceleration)
 }
 
 fn diverged_s(track: &Track, other: &Track) -> Option<f64> {
@@ -372,7 +378,7 @@ fn errors(stage: &Stage, track: &Track, truth: &Track) -> Errors {
     let has_apexes = !apexes.is_empty();
     Errors {
         position,
-        position_part: position / truth.way().max(stage.scene.spec.radius.units()),
+        position_part: position / truth.distance_covered().max(stage.scene.spec.radius.units()),
         restitution: at_first(
             &|seen, wanted| {
                 Some((restitution(seen, wanted.normal) - restitution(wanted, wanted.normal)).abs())

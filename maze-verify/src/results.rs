@@ -1,10 +1,10 @@
 //! What a run found: the content of results.json. The schema is told in docs/verification.md.
 
-use crate::bars::{self, Verdict};
 use crate::contender::Contender;
 use crate::metrics::Metrics;
-use crate::relaxation::Relaxation;
+use crate::model_error::ModelError;
 use crate::scene::Family;
+use crate::tolerances::{self, Verdict};
 use serde::{Deserialize, Serialize};
 
 /// Of results.json; raised when a key changes its meaning or goes.
@@ -46,7 +46,8 @@ pub struct Results {
     /// In the order of the catalogue.
     pub scenes: Vec<SceneResult>,
     /// In the first part, and when all engines ran.
-    pub relaxation: Option<Relaxation>,
+    #[serde(rename = "relaxation")]
+    pub model_error: Option<ModelError>,
     /// What was demanded and whether it holds.
     pub verdicts: Vec<Verdict>,
 }
@@ -92,7 +93,7 @@ pub struct RunResult {
     pub engine: Contender,
     /// What was measured.
     pub metrics: Metrics,
-    /// The centre's way, thinned (units); for the scene's first tick length only.
+    /// The centre's path, thinned (units); for the scene's first tick length only.
     pub path: Vec<[f64; 2]>,
     /// Time (s) and distance (units) to closed form, else to the continuous engine; thinned, largest of each stretch.
     pub distance: Vec<[f64; 2]>,
@@ -101,20 +102,20 @@ pub struct RunResult {
 }
 
 impl Results {
-    /// Puts scenes in order and asks every bar.
+    /// Puts scenes in order and asks every tolerance.
     pub fn new(
         partition: Partition,
         n_scenes: usize,
         mut scenes: Vec<SceneResult>,
-        relaxation: Option<Relaxation>,
+        model_error: Option<ModelError>,
     ) -> Self {
         scenes.sort_by_key(|scene| scene.index);
-        let verdicts = bars::judge(&scenes, relaxation.as_ref());
+        let verdicts = tolerances::judge(&scenes, model_error.as_ref());
         let program = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")).to_owned();
-        Self { schema: SCHEMA, program, partition, n_scenes, scenes, relaxation, verdicts }
+        Self { schema: SCHEMA, program, partition, n_scenes, scenes, model_error, verdicts }
     }
 
-    /// Whether every bar holds.
+    /// Whether every tolerance holds.
     pub fn held(&self) -> bool {
         self.verdicts.iter().all(|verdict| verdict.missed.is_empty())
     }
@@ -143,16 +144,16 @@ impl Results {
         if let Some(missing) = seen.iter().position(|seen| !seen) {
             return Err(format!("part {}/{n} is missing", missing + 1));
         }
-        let mut relaxation = None;
+        let mut model_error = None;
         let mut scenes = Vec::new();
         for part in parts {
-            relaxation = relaxation.or(part.relaxation);
+            model_error = model_error.or(part.model_error);
             scenes.extend(part.scenes);
         }
         if scenes.len() != n_scenes {
             return Err(format!("{} scenes in all parts: expected {n_scenes}", scenes.len()));
         }
-        Ok(Self::new(Partition::WHOLE, n_scenes, scenes, relaxation))
+        Ok(Self::new(Partition::WHOLE, n_scenes, scenes, model_error))
     }
 }
 

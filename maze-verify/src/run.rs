@@ -148,17 +148,19 @@ fn run_case(
 fn track(stage: &Stage, tick_s: f64, engine: Contender, build: &Build) -> Result<Option<Track>, OutOfRange> {
     let Some(mut engine) = build(engine, stage, tick_s)? else { return Ok(None) };
     let n_ticks = stage.n_ticks(tick_s);
-    let pulls: Vec<_> = (0..n_ticks).map(|index| stage.scene.gravity.of_tick(index, tick_s)).collect();
+    let accelerations: Vec<_> =
+        (0..n_ticks).map(|index| stage.scene.gravity.of_tick(index, tick_s)).collect();
     let mut balls = vec![stage.ball];
     let mut ticks = Vec::new();
     let mut taken_s = 0.0;
-    for pull in &pulls {
+    for acceleration in &accelerations {
         let begin = Instant::now();
-        ticks.push(engine.tick(*pull)?);
+        ticks.push(engine.tick(*acceleration)?);
         taken_s += begin.elapsed().as_secs_f64();
         balls.push(engine.ball().checked()?);
     }
-    let accelerations = pulls.into_iter().map(|pull| pull * stage.scene.spec.rolling).collect();
+    let accelerations =
+        accelerations.into_iter().map(|acceleration| acceleration * stage.scene.spec.rolling).collect();
     Ok(Some(Track { tick_s, balls, accelerations, ticks, taken_s }))
 }
 
@@ -175,11 +177,11 @@ fn thinned_path(track: &Track) -> Vec<[f64; 2]> {
     keep[0] = true;
     keep[points.len() - 1] = true;
     while let Some((first, last)) = open.pop() {
-        let way = points[last] - points[first];
+        let chord = points[last] - points[first];
         let off = |index: &usize| {
             let from = points[*index] - points[first];
-            let part = (from.dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
-            if part.is_nan() { from.norm() } else { (from - way * part).norm() }
+            let fraction = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+            if fraction.is_nan() { from.norm() } else { (from - chord * fraction).norm() }
         };
         let farthest = (first + 1..last).max_by(|a, b| off(a).total_cmp(&off(b)));
         if let Some(index) = farthest.filter(|index| PATH_TOLERANCE < off(index)) {

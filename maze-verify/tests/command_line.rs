@@ -42,7 +42,7 @@ fn run_writes_a_report_and_prints_a_table() {
     let output =
         verify(directory.path(), &["run", "--scene", "head-on", "--scene", "corner-0?", "--out", "out/deep"]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
-    assert!(stdout(&output).contains("bars hold; out/deep/report.html"));
+    assert!(stdout(&output).contains("tolerances hold; out/deep/report.html"));
     assert!(output.stderr.is_empty(), "no progress bar without a terminal");
     let out = directory.path().join("out/deep");
     let results: Value = serde_json::from_slice(&std::fs::read(out.join("results.json")).unwrap()).unwrap();

@@ -35,7 +35,7 @@ fn assert_found(results: &Results, metric: &str, scene: &str) {
     let table = report::table(results);
     let line = table.lines().find(|line| line.contains("continuous: ") && line.contains(scene));
     assert!(line.is_some(), "{table}");
-    assert!(report::html(results).contains("bars missed"));
+    assert!(report::html(results).contains("tolerances missed"));
 }
 
 /// The continuous engine of an altered stage, all others as they are.
@@ -302,7 +302,7 @@ fn at_corners_rapier_without_its_margin_agrees_with_closed_form() {
             truth.tick(Vector2::zeros()).unwrap();
             rapier.tick(Vector2::zeros()).unwrap();
         }
-        // A tick's way is 0.003 of a radius of 0.25: the direction of the touch is told to a degree.
+        // A tick's displacement is 0.003 of a radius of 0.25: the direction of the touch is told to a degree.
         let angle = truth.ball().velocity.angle(&rapier.ball().velocity).to_degrees();
         assert!(angle < 1.0, "{}: {angle} degrees", scene.name);
         let off = (truth.ball().position - rapier.ball().position).norm();
@@ -318,8 +318,8 @@ fn the_continuous_engine_is_what_the_run_calls_continuous() {
     let planes = stage.board.planes().clone();
     let mut plain = Continuous::new(planes, scene.spec, stage.ball, 0.03).unwrap();
     for index in 0..300 {
-        let pull = scene.gravity.of_tick(index, 0.03);
-        assert_eq!(ours.tick(pull).unwrap(), plain.tick(pull).unwrap());
+        let acceleration = scene.gravity.of_tick(index, 0.03);
+        assert_eq!(ours.tick(acceleration).unwrap(), plain.tick(acceleration).unwrap());
         assert_eq!(ours.ball(), plain.ball());
     }
 }

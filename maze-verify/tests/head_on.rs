@@ -43,7 +43,7 @@ fn the_same_head_on_bounce_through_our_engine_and_rapier() {
     assert!(rapiers.velocity.y.abs() < 1.0e-5);
 
     // Closed form: contact at (5 - r) / v, then back. Both notice the wall at the end of a tick at the earliest, which is
-    // worth at most one tick's way in and one out.
+    // worth at most one tick's displacement in and one out.
     let contact = WALL.low.x - BallSpec::RADIUS.units();
     let exact = contact + expected * (80.0 * Published::TICK_S - contact / SPEED);
     let one_tick = (SPEED - expected) * Published::TICK_S;

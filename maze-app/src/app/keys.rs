@@ -2,7 +2,7 @@
 
 use super::{App, layout};
 use crate::failure::Failure;
-use crate::input::{self, Stroke, Wish};
+use crate::input::{self, Effect, Stroke};
 use winit::dpi::PhysicalPosition;
 use winit::event::KeyEvent;
 use winit::event_loop::ActiveEventLoop;
@@ -15,14 +15,14 @@ impl App {
         is_synthetic: bool,
     ) -> Result<(), Failure> {
         let Some(stroke) = Stroke::new(event, is_synthetic) else { return Ok(()) };
-        let wish = self.keyboard.stroke(&stroke);
+        let effect = self.keyboard.stroke(&stroke);
         if self.keyboard.take_unknown() && self.presence.is_on_x11() {
             self.keyboard.set_layouts(layout::read(), Some(&stroke));
         }
         self.control.hold(self.keyboard.directions());
-        match wish {
-            Some(Wish::Tilt(direction)) => self.control.tap(direction),
-            Some(Wish::Act(action)) => self.act(event_loop, action)?,
+        match effect {
+            Some(Effect::Tilt(direction)) => self.control.tap(direction),
+            Some(Effect::Act(action)) => self.act(event_loop, action)?,
             None => {}
         }
         Ok(())

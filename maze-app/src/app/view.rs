@@ -17,7 +17,7 @@ const FOLLOW_ZOOM: f64 = 2.0;
 /// Time in which the view covers all but a third of its way (s): quick, and without a jerk.
 const SETTLE_S: f64 = 0.09;
 
-/// Room beside a covered part, as a part of it: a board off the middle of the view reaches farther out.
+/// Room beside a covered part, as a fraction of it: a board off the middle of the view reaches farther out.
 const ROOM_BESIDE: f32 = 0.1;
 
 /// A view of the whole board that [`beside`] a covered part of the width still holds all of it.
@@ -33,9 +33,9 @@ pub(crate) fn beside(camera: Camera, aspect: f32, covered: f32) -> Camera {
 }
 
 /// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
-pub(super) fn with_room_below(camera: Camera, part: f32) -> Camera {
-    let distance = camera.distance / (1.0 - part);
-    let down = part * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
+pub(super) fn with_room_below(camera: Camera, fraction: f32) -> Camera {
+    let distance = camera.distance / (1.0 - fraction);
+    let down = fraction * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
     let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
     Camera { target: target.into(), distance }
 }

@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     /// Open the outer wall in the middle of the top and the bottom: start and goal, as on mazegenerator.net
     #[arg(long)]
     doors: bool,
-    /// Draw the shortest way from start to goal too (.svg)
+    /// Draw the shortest path from start to goal too (.svg)
     #[arg(long)]
     solution: bool,
     /// Where to write it; the name ends in .obj (gets maze-app.mtl beside it), .svg or .txt

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  maze-app info my_maze.obj\n  maze-app info my_maze.svg --json\n  \
                         maze-app info my_maze.obj --planes +y\n  maze-app info --level 3\n\n\
-                        Exit status 1 when no way leads from start to goal.")]
+                        Exit status 1 when no path leads from start to goal.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     maze: KnownMazeArguments,
@@ -54,7 +54,7 @@ pub(crate) fn no_path(source: &Source, maze: &Maze) -> Failure {
     let hint =
         maze.report.passing_radius.map(|radius| format!("; a ball of radius {} passes", radius.units()));
     let hint = hint.unwrap_or_default();
-    Failure::not_held(format!("{}: no way leads from start to goal{hint}", source.name()))
+    Failure::not_held(format!("{}: no path leads from start to goal{hint}", source.name()))
 }
 
 fn table(maze: &Maze, facing: Facing) -> Vec<[f64; 3]> {

@@ -11,16 +11,16 @@
 
 use nalgebra::Vector2;
 
-/// Sphere radius as a part of the window's diagonal. Half of it puts the tilt's limit of 20 degrees, which is 10
+/// Sphere radius as a fraction of the window's diagonal. Half of it puts the tilt's limit of 20 degrees, which is 10
 /// degrees of arc, at 129 pixels of drag in a 1280 x 720 window.
-const RADIUS_PART: f64 = 0.5;
+const RADIUS_FRACTION: f64 = 0.5;
 
 /// What a drag between two pixels (x right, y down) adds to the half-angle tangents of the tilt (x right, y up).
 ///
 /// Zero for a window without area.
 pub(crate) fn drag_tangents(size: [u32; 2], from: [f64; 2], to: [f64; 2]) -> Vector2<f64> {
     let [width, height] = size.map(f64::from);
-    let radius = RADIUS_PART * (width * width + height * height).sqrt();
+    let radius = RADIUS_FRACTION * (width * width + height * height).sqrt();
     match 0.0 < radius {
         true => Vector2::new(to[0] - from[0], from[1] - to[1]) / radius,
         false => Vector2::zeros(),

@@ -54,7 +54,7 @@ pub(crate) struct Keyboard {
 
 /// What a stroke asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Wish {
+pub(crate) enum Effect {
     /// A direction's first key went down.
     Tilt(Direction),
     Act(Action),
@@ -66,7 +66,7 @@ impl Keyboard {
     }
 
     /// Takes note of a stroke, and says what is to be done about it.
-    pub(crate) fn stroke(&mut self, stroke: &Stroke) -> Option<Wish> {
+    pub(crate) fn stroke(&mut self, stroke: &Stroke) -> Option<Effect> {
         let was = self.held.iter().position(|(place, _)| *place == stroke.place);
         if !stroke.is_pressed {
             was.map(|index| self.held.remove(index));
@@ -75,7 +75,7 @@ impl Keyboard {
         if let Some(index) = was {
             // The keyboard repeats it.
             return match self.held[index].1 {
-                Some(Control::Act(action)) if action.repeats() => Some(Wish::Act(action)),
+                Some(Control::Act(action)) if action.repeats() => Some(Effect::Act(action)),
                 _ => None,
             };
         }
@@ -83,10 +83,10 @@ impl Keyboard {
         let control = stroke.control().filter(|control| self.allows(*control));
         self.held.push((stroke.place, control));
         match control? {
-            Control::Tilt(direction) => Some(Wish::Tilt(direction)),
+            Control::Tilt(direction) => Some(Effect::Tilt(direction)),
             // It was pressed for another window.
             Control::Act(_) if stroke.is_synthetic => None,
-            Control::Act(action) => Some(Wish::Act(action)),
+            Control::Act(action) => Some(Effect::Act(action)),
         }
     }
 

@@ -3,7 +3,7 @@
 use maze_core::Tilt;
 use nalgebra::Vector2;
 
-/// How fast held keys tip the board, and how fast it comes back when they are let go, as half-angle tangents a second:
+/// How fast held keys tip the board, and how fast it returns when they are released, as half-angle tangents a second:
 /// 0.5 is about 57 degrees a second, so the limit of 20 degrees is reached in a third of a second.
 const KEY_RATE_PER_S: f64 = 0.5;
 
@@ -44,7 +44,7 @@ pub(crate) struct TiltControl {
     is_dragged: bool,
     held: [bool; 4],
     tapped_left_s: [f64; 4],
-    /// Whether keys moved the board last: then it comes back to level when they are let go.
+    /// Whether keys moved the board last: then it returns to level when they are released.
     keys_lead: bool,
 }
 
@@ -130,8 +130,8 @@ impl TiltControl {
         }
         // Opposite keys cancel; two neighbours tip diagonally, no further than one.
         let wanted = wanted.try_normalize(0.0).unwrap_or_default() * (MAX_EXCESS * self.limit);
-        let way = wanted - self.asked;
-        self.asked += capped(way, KEY_RATE_PER_S * tick_s);
+        let direction = wanted - self.asked;
+        self.asked += capped(direction, KEY_RATE_PER_S * tick_s);
     }
 }
 
@@ -143,8 +143,8 @@ fn capped(vector: Vector2<f64>, longest: f64) -> Vector2<f64> {
 
 /// `limit` must be greater than 0. Nearly the identity up to 2/3 of the limit, then smoothly up to it: t / (1 + (t / L)^4)^(1/4).
 fn soft_limited(asked: Vector2<f64>, limit: f64) -> Vector2<f64> {
-    let part = asked.norm_squared() / (limit * limit);
-    asked / (1.0 + part * part).sqrt().sqrt()
+    let excess = asked.norm_squared() / (limit * limit);
+    asked / (1.0 + excess * excess).sqrt().sqrt()
 }
 
 #[cfg(test)]
@@ -223,7 +223,7 @@ mod tests {
         fn i4_straight_drags_are_monotone_continuous_and_limited(
             size in [1_u32..4000, 1_u32..4000],
             from in [-5000.0..5000.0, -5000.0..5000.0],
-            way_rad in -4.0..4.0_f64,
+            direction_rad in -4.0..4.0_f64,
             steps in prop::collection::vec(0.0..300.0, 1..40),
             before in [-9.0..9.0, -9.0..9.0],
             limit_degrees in 1.0..45.0_f64,
@@ -231,16 +231,16 @@ mod tests {
             let mut control = TiltControl::new(limit_degrees.to_radians());
             control.begin_drag();
             control.drag_by(Vector2::new(before[0], before[1]));
-            let way = Vector2::new(way_rad.cos(), way_rad.sin());
+            let direction = Vector2::new(direction_rad.cos(), direction_rad.sin());
             let (mut at, mut last) = (Vector2::new(from[0], from[1]), soft_limited(control.asked, control.limit));
             for step in steps {
-                let to: Vector2<f64> = at + step * Vector2::new(way.x, -way.y);
+                let to: Vector2<f64> = at + step * Vector2::new(direction.x, -direction.y);
                 let tangents = drag_tangents(size, at.into(), to.into());
                 control.drag_by(tangents);
                 at = to;
                 let now = soft_limited(control.asked, control.limit);
                 let rounding = 1.0e-12 * (1.0 + at.norm());
-                prop_assert!(last.dot(&way) <= now.dot(&way) + rounding, "{last} to {now}");
+                prop_assert!(last.dot(&direction) <= now.dot(&direction) + rounding, "{last} to {now}");
                 prop_assert!(now.norm() < control.limit);
                 prop_assert!((now - last).norm() <= tangents.norm() + rounding, "no leap");
                 let twist = control.tilt().world_from_maze().k;

@@ -44,7 +44,7 @@ pub(crate) enum Layer {
     Gravity,
     /// Walls coloured by facing.
     Planes,
-    /// What the search looks at.
+    /// What the search probes at.
     Search,
     /// The last contact.
     Contact,
@@ -121,7 +121,7 @@ pub(crate) struct Panel {
 /// Words at a place in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tag {
-    /// Part of the picture's width and height, from the upper left corner.
+    /// Fraction of the picture's width and height, from the upper left corner.
     pub(crate) at: [f32; 2],
     pub(crate) words: Span,
 }
@@ -226,21 +226,21 @@ impl<'a> Drawing<'a> {
 
     fn gravity(&mut self) {
         self.pen.board(&self.game.maze().bounds);
-        let pull = self.acceleration;
-        self.ray(pull, GRAVITY);
+        let acceleration = self.acceleration;
+        self.ray(acceleration, GRAVITY);
         self.ray(self.velocity, VELOCITY);
-        // Gravity itself, and the normal's part of it, which the floor takes: together they make the projection plain.
+        // Gravity itself, and its normal component, which the floor takes: together they make the projection plain.
         let down = self.scene.world_from_maze.inverse() * Vector3::new(0.0, 0.0, to_f32(-RAY_S));
         let whole = down.cast::<f64>() * gravity::WORLD_GRAVITY.norm();
         let from = self.at_centre(self.centre);
-        if LEAST_RAY < pull.norm() {
-            self.pen.dashed(from + whole, from + (pull * RAY_S).push(0.0), 1.5, QUIET);
+        if LEAST_RAY < acceleration.norm() {
+            self.pen.dashed(from + whole, from + (acceleration * RAY_S).push(0.0), 1.5, QUIET);
         }
         self.pen.arrow(from, whole, 2.0, QUIET);
         let text = |name: &str, vector: Vector2<f64>, unit: &str| format!("{name} {} {unit}", signed(vector));
         let lines = vec![
             vec![span(QUIET, "gravity       9.81 units/s² down")],
-            vec![span(GRAVITY, text("in the plane ", pull, "units/s²"))],
+            vec![span(GRAVITY, text("in the plane ", acceleration, "units/s²"))],
             vec![span(VELOCITY, text("velocity     ", self.velocity, "units/s"))],
         ];
         self.panel("gravity in the maze's plane", lines);
@@ -276,7 +276,7 @@ impl<'a> Drawing<'a> {
         if n_near < planes.len() {
             lines.push(vec![span(QUIET, format!("the nearest {n_near} are coloured"))]);
         }
-        self.panel("planes, by where they look", lines);
+        self.panel("planes, by outward normal", lines);
     }
 
     /// The search that the engine's state would begin its next tick with.
@@ -314,7 +314,7 @@ impl<'a> Drawing<'a> {
         for group in &trace.groups {
             let colour = colour_of(group.facing);
             for row in &group.rows {
-                // The row, the part of it that is searched, and what that holds.
+                // The row, the range of it that is searched, and what that holds.
                 let planes = self.game.maze().planes.planes(group.facing);
                 for plane in planes.filter(|plane| plane.offset == row.offset) {
                     self.pen.face(&plane, 2.5, 90, colour);
@@ -402,7 +402,7 @@ impl<'a> Drawing<'a> {
             self.pen.dot(to, 0.14 * self.radius, GOLD);
             let free = nearest.distance - self.radius;
             self.tag(to, span(GOLD, format!("{:.3}", nearest.distance)));
-            lines.push(vec![span(GOLD, format!("nearest looks {}", nearest.plane.facing.name()))]);
+            lines.push(vec![span(GOLD, format!("nearest faces {}", nearest.plane.facing.name()))]);
             lines.push(vec![span(GOLD, format!("{:.4} from the centre", nearest.distance))]);
             lines.push(vec![span(GOLD, format!("{free:.4} from the ball"))]);
         }

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 /// Corners of a ring.
 const N_RING: u32 = 48;
 
-/// An arrow's head, as a part of the arrow, and at most in units.
-const HEAD_PART: f64 = 0.3;
+/// An arrow's head, as a fraction of the arrow, and at most in units.
+const HEAD_FRACTION: f64 = 0.3;
 const MAX_HEAD: f64 = 0.18;
 
 /// Length of a dash (units).
@@ -29,7 +29,7 @@ const FAINT: u8 = 60;
 pub(super) struct Pen {
     pub(super) lines: Vec<Line>,
     pub(super) patches: Vec<Patch>,
-    /// Where it is looked from, maze frame.
+    /// Where the eye is, maze frame.
     eye: Point3<f64>,
     wall_height: f64,
 }
@@ -49,11 +49,11 @@ impl Pen {
     }
 
     pub(super) fn dashed(&mut self, from: Vector3<f64>, to: Vector3<f64>, width: f32, colour: Colour) {
-        let way = to - from;
-        let n_dashes = (way.norm() / (2.0 * DASH)).ceil().clamp(1.0, 100.0);
+        let line = to - from;
+        let n_dashes = (line.norm() / (2.0 * DASH)).ceil().clamp(1.0, 100.0);
         let mut begin = 0.0;
         while begin < n_dashes {
-            let at = |part: f64| from + way * (part / n_dashes);
+            let at = |fraction: f64| from + line * (fraction / n_dashes);
             self.line(at(begin), at(begin + 0.5), width, colour);
             begin += 1.0;
         }
@@ -63,7 +63,7 @@ impl Pen {
     pub(super) fn arrow(&mut self, from: Vector3<f64>, vector: Vector3<f64>, width: f32, colour: Colour) {
         let Some(along) = vector.try_normalize(0.0) else { return };
         let tip = from + vector;
-        let head = (HEAD_PART * vector.norm()).min(MAX_HEAD);
+        let head = (HEAD_FRACTION * vector.norm()).min(MAX_HEAD);
         let flat = Vector3::new(-along.y, along.x, 0.0);
         let across = if along.z.abs() < 0.7 { flat.normalize() } else { Vector3::x() };
         let foot = tip - along * head;

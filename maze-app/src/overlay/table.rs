@@ -1,17 +1,17 @@
-//! The sorted table of one group as the report draws it: what each look of a bisection compares.
+//! The sorted table of one group as the report draws it: what each probe of a bisection compares.
 
 use super::{Colour, GOLD, INK, QUIET, Span, span};
 use maze_core::trace::{GroupVisit, Probe};
 use maze_core::{Plane, SortedPlanes};
 use std::collections::BTreeSet;
 
-/// Tables up to this long are shown whole; of longer ones only what is looked at.
+/// Tables up to this long are shown whole; of longer ones only what is visited.
 const SHORT: usize = 10;
 
 /// Most lines of a table.
 const MAX_LINES: usize = 14;
 
-/// Most looks, which are bisections of 2^12.
+/// Most probes, which are bisections of 2^12.
 const MAX_LOOKS: usize = 12;
 
 pub(super) fn lines(planes: &SortedPlanes, group: &GroupVisit, colour: Colour) -> Vec<Vec<Span>> {
@@ -23,7 +23,7 @@ pub(super) fn lines(planes: &SortedPlanes, group: &GroupVisit, colour: Colour) -
     let mut lines =
         vec![vec![span(colour, heading)], vec![span(QUIET, format!("sought: offset {low:.2} to {high:.2}"))]];
     let offset = |index: usize| format!("{:>8.2}", offsets[index]);
-    lines.extend(looks(offsets.len(), &group.probes, &visited, "  offset", offset));
+    lines.extend(probe_lines(offsets.len(), &group.probes, &visited, "  offset", offset));
     // The row in which planes were handed over, or else the first.
     let row = group.rows.iter().find(|row| !row.planes.is_empty()).or(group.rows.first());
     let Some(row) = row else {
@@ -36,12 +36,12 @@ pub(super) fn lines(planes: &SortedPlanes, group: &GroupVisit, colour: Colour) -
     let [low, high] = row.window;
     lines.push(vec![span(QUIET, format!("sought: {low:.2} to {high:.2} along it"))]);
     let extent = |index: usize| format!("{:>8.2}{:>8.2}", known[index].start, known[index].end);
-    lines.extend(looks(known.len(), &row.probes, &handed, "   start     end", extent));
+    lines.extend(probe_lines(known.len(), &row.probes, &handed, "   start     end", extent));
     lines
 }
 
-/// A line an entry, a column a look: L and H what is not excluded, M what is compared.
-fn looks(
+/// A line an entry, a column a probe: L and H what is not excluded, M what is compared.
+fn probe_lines(
     n: usize,
     probes: &[Probe],
     found: &[usize],
@@ -49,8 +49,8 @@ fn looks(
     words: impl Fn(usize) -> String,
 ) -> Vec<Vec<Span>> {
     let probes = &probes[..probes.len().min(MAX_LOOKS)];
-    let looks = if probes.is_empty() { "" } else { "   looks" };
-    let mut lines = vec![vec![span(QUIET, format!("    {heading}{looks}"))]];
+    let columns = if probes.is_empty() { "" } else { "   probes" };
+    let mut lines = vec![vec![span(QUIET, format!("    {heading}{columns}"))]];
     let mut last = None;
     for index in shown(n, probes, found) {
         if last.map_or(0, |last| last + 1) < index {
@@ -76,7 +76,7 @@ fn shown(n: usize, probes: &[Probe], found: &[usize]) -> BTreeSet<usize> {
     if n <= SHORT {
         return (0..n).collect();
     }
-    // The last looks come nearest to what is found, so they go first.
+    // The last probes come nearest to what is found, so they go first.
     let pointers = probes.iter().rev().flat_map(|probe| [probe.mid, probe.low, probe.high]);
     let mut indices = BTreeSet::new();
     for index in found.iter().copied().chain(pointers) {
@@ -114,10 +114,10 @@ mod tests {
     fn each_look_is_a_column_and_what_was_found_is_marked() {
         let probes = [Probe { low: 0, mid: 2, high: 4 }, Probe { low: 0, mid: 1, high: 2 }];
         let words = |index: usize| format!(" {index}.5");
-        let lines = text(&looks(4, &probes, &[1], " at", words));
+        let lines = text(&probe_lines(4, &probes, &[1], " at", words));
         assert_eq!(
             lines,
-            ["     at   looks", "   0 0.5    L L", ">  1 1.5    | M", "   2 2.5    M H", "   3 3.5    |"]
+            ["     at   probes", "   0 0.5    L L", ">  1 1.5    | M", "   2 2.5    M H", "   3 3.5    |"]
         );
     }
 
@@ -126,7 +126,7 @@ mod tests {
         let probes = [Probe { low: 0, mid: 500, high: 1000 }, Probe { low: 501, mid: 750, high: 1000 }];
         let indices: Vec<usize> = shown(1000, &probes, &[751]).into_iter().collect();
         assert_eq!(indices, [0, 500, 501, 750, 751]);
-        let lines = text(&looks(1000, &probes, &[751], "", |_| String::new()));
+        let lines = text(&probe_lines(1000, &probes, &[751], "", |_| String::new()));
         assert_eq!(lines.iter().filter(|line| line.as_str() == "   .").count(), 3);
     }
 }

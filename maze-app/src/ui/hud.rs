@@ -65,11 +65,11 @@ pub(crate) struct Labels {
 
 impl Labels {
     pub(crate) fn new(source: &Source, maze: &Maze) -> Self {
-        let way = maze.path_length().map(|length| format!("way {length:.0}"));
+        let path = maze.path_length().map(|length| format!("path {length:.0}"));
         let difficulty = maze.metrics().map(|metrics| format!("difficulty {:.0}", metrics.difficulty));
         Self {
             title: source.title(),
-            facts: way.into_iter().chain(difficulty).collect::<Vec<_>>().join("   "),
+            facts: path.into_iter().chain(difficulty).collect::<Vec<_>>().join("   "),
             remarks: remarks(maze),
             par_ticks: source.par_ticks(),
             onwards: source.onwards(),
@@ -112,7 +112,7 @@ pub(super) fn panel() -> Frame {
 }
 
 impl Hud<'_> {
-    /// Part of the window's height, at its lower edge, that the list of keys takes: the maze is shown above it.
+    /// Fraction of the window's height, at its lower edge, that the list of keys takes: the maze is shown above it.
     pub(crate) fn covered_part(&self, size_points: [f32; 2]) -> f32 {
         if self.help && !is_small(size_points) { KEYS_HEIGHT / size_points[1] } else { 0.0 }
     }

@@ -14,7 +14,7 @@ const WIDTH: f32 = 330.0;
 /// Words stand beside their place, not on it (points).
 const ASIDE: egui::Vec2 = vec2(10.0, -10.0);
 
-/// Part of the picture's width, on the left, that the layers' panels take: the maze is shown beside it.
+/// Fraction of the picture's width, on the left, that the layers' panels take: the maze is shown beside it.
 pub(crate) fn covered_width(layers: Layers, size_points: [f32; 2]) -> f32 {
     let is_hidden = layers == Layers::default() || is_small(size_points);
     // More than half is never taken from the maze.

@@ -29,16 +29,16 @@ pub(crate) const CALLS: [(&str, Prepare); 7] = [
     ("sweep::first_impact, 0.1 corridors", || first_impact(0.1)),
     ("sweep::first_impact, 10 corridors", || first_impact(10.0)),
     ("Continuous::tick, rolling", || {
-        rolling(usual, |engine, pull| {
-            let _ = black_box(engine.tick(pull));
+        rolling(usual, |engine, acceleration| {
+            let _ = black_box(engine.tick(acceleration));
         })
     }),
     // As the game plays it: the last hit is kept.
     ("Continuous::tick_observed, rolling", || {
         let mut last_hit = None;
-        rolling(usual, move |engine, pull| {
+        rolling(usual, move |engine, acceleration| {
             let mut observer = |hit: &Hit| last_hit = Some(*hit);
-            let _ = black_box(engine.tick_observed(pull, &mut observer));
+            let _ = black_box(engine.tick_observed(acceleration, &mut observer));
         })
     }),
     ("Continuous::tick, bouncing", bouncing),
@@ -46,8 +46,8 @@ pub(crate) const CALLS: [(&str, Prepare); 7] = [
         let published = |planes, ball| {
             Ok(Box::new(Published::new(planes, BallSpec::default(), ball, Published::TICK_S)?) as _)
         };
-        rolling(published, |engine, pull| {
-            let _ = black_box(engine.tick(pull));
+        rolling(published, |engine, acceleration| {
+            let _ = black_box(engine.tick(acceleration));
         })
     }),
     ("SortedPlanes::new, a plane", build),
@@ -104,7 +104,7 @@ fn usual(planes: Arc<SortedPlanes>, ball: Ball) -> Made {
     exact(planes, BallSpec::default(), ball)
 }
 
-/// One ball tick after tick, under a pull of 1 unit/s² that turns once in about 3 s.
+/// One ball tick after tick, under a acceleration of 1 unit/s² that turns once in about 3 s.
 fn rolling(
     engine: fn(Arc<SortedPlanes>, Ball) -> Made,
     mut tick: impl FnMut(&mut dyn Engine, Vector2<f64>) + 'static,
@@ -112,11 +112,14 @@ fn rolling(
     let mut engine = engine(planes()?, Ball::at(centre(SIDE / 2, SIDE / 2)))?;
     // A turn of 3.6 degrees in whole numbers: 1023² + 64² = 1025².
     let (cos, sin) = (1023.0 / 1025.0, 64.0 / 1025.0);
-    let mut pull = Vector2::new(1.0, 0.0);
+    let mut acceleration = Vector2::new(1.0, 0.0);
     let make = move || {
         for _ in 0..N_TICKS {
-            pull = Vector2::new(cos * pull.x - sin * pull.y, sin * pull.x + cos * pull.y);
-            tick(engine.as_mut(), black_box(pull));
+            acceleration = Vector2::new(
+                cos * acceleration.x - sin * acceleration.y,
+                sin * acceleration.x + cos * acceleration.y,
+            );
+            tick(engine.as_mut(), black_box(acceleration));
         }
     };
     Ok(Round { n_calls: N_TICKS as usize, make: Box::new(make) })

@@ -3,11 +3,11 @@
 use crate::assembly::board;
 use crate::assembly::error::{AssembleError, CORRIDORS};
 use crate::assembly::frame::Frame;
+use crate::assembly::occupancy::Occupancy;
 use crate::assembly::polygons::{PolygonMesh, UpAxis};
-use crate::assembly::section::Section;
 use crate::assembly::survey::{Survey, extent};
 use crate::maze::{FaceReason, ImportReport, Maze, Route};
-use crate::navigation::ends::{self, Ends, RouteError, Wishes};
+use crate::navigation::ends::{self, Ends, Requested, RouteError};
 use crate::navigation::space::ConfigurationSpace;
 use crate::physics::ball::{BallSpec, Radius};
 use crate::physics::bounds::Bounds;
@@ -20,7 +20,7 @@ use std::sync::Arc;
 const GOAL_RADIUS: f64 = 0.35;
 
 /// Thickness of the rim that is laid around a surface without one, as a fraction of the file's size.
-const RING_PART: f64 = 0.02;
+const RING_FRACTION: f64 = 0.02;
 
 /// An axis may point out of the board if the file is at most so many times as deep along it as along the flattest one.
 const MAX_DEPTH_RATIO: f64 = 2.0;
@@ -32,7 +32,7 @@ const TRIED_RADII: RangeInclusive<u8> = 2..=48;
 /// By how much a larger ball must pass too (corridors): through a gate in a flat wall that a ball fits to a hair nobody gets.
 const PLAY: f64 = 0.005;
 
-/// Part of the plan that low walls may bring into doubt before they are left out.
+/// Fraction of the plan that low walls may bring into doubt before they are left out.
 const MAX_ADDED_DOUBT: f64 = 0.01;
 
 /// What the user may decide instead of us.
@@ -94,7 +94,7 @@ impl Maze {
         Self::from_polygons_step_by_step(mesh, options, &mut |_| ())
     }
 
-    /// [`Maze::from_polygons`] that tells each stage as it begins; stages come again where an axis was wrong.
+    /// [`Maze::from_polygons`] that reports each stage as it begins; stages come again where an axis was wrong.
     ///
     /// # Errors
     /// As there.
@@ -147,40 +147,40 @@ impl Maze {
         let mut survey = Survey::new(mesh, up_axis, false)?;
         let cut = survey.cut_walls()?;
         tell(Stage::Plan);
-        let mut raw_section = Section::new(&cut)?;
+        let mut raw_plan = Occupancy::new(&cut)?;
         drop(cut);
-        let mut covers = board::Covers::new(&survey, &raw_section);
+        let mut covers = board::Covers::new(&survey, &raw_plan);
         let is_turned_over = covers.is_turned_over();
         if is_turned_over {
             let size = extent(mesh.positions()).amax();
-            raw_section = raw_section.turned_over(RING_PART * size);
-            covers = board::Covers::new(&survey, &raw_section);
-        } else if raw_section.inverted {
-            // The walls look inwards, and so does all the rest: floors look down.
+            raw_plan = raw_plan.turned_over(RING_FRACTION * size);
+            covers = board::Covers::new(&survey, &raw_plan);
+        } else if raw_plan.inverted {
+            // The walls face inwards, and so does all the rest: floors face down.
             survey = Survey::new(mesh, up_axis, true)?;
-            raw_section = Section::new(&survey.cut_walls()?)?;
-            covers = board::Covers::new(&survey, &raw_section);
+            raw_plan = Occupancy::new(&survey.cut_walls()?)?;
+            covers = board::Covers::new(&survey, &raw_plan);
         }
         covers.note_roof(&mut survey);
-        let corridor_of = |section: &Section| section.corridor().map(|found| given.corridor.unwrap_or(found));
-        let mut corridor = corridor_of(&raw_section).ok_or(AssembleError::NoCorridor)?;
+        let corridor_of = |plan: &Occupancy| plan.corridor().map(|found| given.corridor.unwrap_or(found));
+        let mut corridor = corridor_of(&raw_plan).ok_or(AssembleError::NoCorridor)?;
         if !is_turned_over {
             let radius = options.ball_radius.unwrap_or(BallSpec::RADIUS).units() * corridor;
-            if let Some(section) = with_low_walls(&mut survey, &raw_section, radius)? {
-                raw_section = section;
-                corridor = corridor_of(&raw_section).ok_or(AssembleError::NoCorridor)?;
-                covers = board::Covers::new(&survey, &raw_section);
+            if let Some(plan) = with_low_walls(&mut survey, &raw_plan, radius)? {
+                raw_plan = plan;
+                corridor = corridor_of(&raw_plan).ok_or(AssembleError::NoCorridor)?;
+                covers = board::Covers::new(&survey, &raw_plan);
             }
         }
-        let frame = Frame::new(&raw_section, [survey.floor_z, survey.top_z], corridor, options.scale);
+        let frame = Frame::new(&raw_plan, [survey.floor_z, survey.top_z], corridor, options.scale);
         if let Some(scale) = options.scale.filter(|scale| !CORRIDORS.contains(&(scale * corridor))) {
             return Err(AssembleError::Scale { scale, corridor: scale * corridor });
         }
-        let section = raw_section.map(|x| frame.x(x), |y| frame.y(y));
-        let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
+        let plan = raw_plan.map(|x| frame.x(x), |y| frame.y(y));
+        let [low, high] = plan.corners().map(|[x, y]| Vector2::new(x, y));
         let bounds = Bounds { low, high };
         tell(Stage::Path);
-        let wishes = Wishes {
+        let requested = Requested {
             exact: [options.start, options.goal],
             near: given.ends.map(|end| end.map(|end| Vector2::new(frame.x(end.x), frame.y(end.y)))),
         };
@@ -188,11 +188,11 @@ impl Maze {
         let width = options.scale.map_or(1.0, |scale| scale * corridor);
         let asked = options.ball_radius.unwrap_or(BallSpec::RADIUS).units();
         // What the ball does not fit through is a chink, not an opening.
-        let mut openings = section.openings();
+        let mut openings = plan.openings();
         openings.retain(|opening| 2.0 * asked * width <= opening.end - opening.start);
         let find = |radius: f64| {
-            let space = ConfigurationSpace::new(&section, radius * width);
-            Ends::find(&space, &openings, radius * width, &wishes).map(|ends| (space, ends))
+            let space = ConfigurationSpace::new(&plan, radius * width);
+            Ends::find(&space, &openings, radius * width, &requested).map(|ends| (space, ends))
         };
         let found = find(asked);
         let is_solvable = found.as_ref().is_ok_and(|(_, ends)| ends.is_joined);
@@ -207,8 +207,8 @@ impl Maze {
         let wall_height = frame.z(survey.top_z);
         tell(Stage::Surface);
         Ok(Self {
-            planes: Arc::new(SortedPlanes::new(section.faces())?),
-            surface: board::surface(&survey, &section, &frame, &openings, &covers),
+            planes: Arc::new(SortedPlanes::new(plan.faces())?),
+            surface: board::surface(&survey, &plan, &frame, &openings, &covers),
             openings,
             bounds,
             wall_height,
@@ -221,9 +221,9 @@ impl Maze {
                 turned: survey.turn.walls_x,
                 ignored: survey.ignored,
                 adjusted: survey.adjusted,
-                merged_within: section.merged_within.map(|within| within * frame.scale()),
-                thickened_to: section.thickened_to.map(|thickness| thickness * frame.scale()),
-                doubtful_fraction: section.doubtful_fraction,
+                merged_within: plan.merged_within.map(|within| within * frame.scale()),
+                thickened_to: plan.thickened_to.map(|thickness| thickness * frame.scale()),
+                doubtful_fraction: plan.doubtful_fraction,
                 passing_radius: passing.and_then(|radius| Radius::new(radius).ok()),
             },
             route: Route {
@@ -241,9 +241,9 @@ impl Maze {
 /// the plan they are not met, and noted.
 fn with_low_walls(
     survey: &mut Survey,
-    section: &Section,
+    plan: &Occupancy,
     radius: f64,
-) -> Result<Option<Section>, AssembleError> {
+) -> Result<Option<Occupancy>, AssembleError> {
     let low = survey.low_walls(radius);
     survey.note_unmet(low.climbed, FaceReason::RolledOver);
     if low.planes.is_empty() {
@@ -251,10 +251,10 @@ fn with_low_walls(
     }
     let mut cut = survey.cut_walls()?;
     cut.extend(low.planes);
-    match Section::new(&cut) {
+    match Occupancy::new(&cut) {
         Ok(with)
-            if with.thickened_to.is_some() == section.thickened_to.is_some()
-                && with.doubtful_fraction <= section.doubtful_fraction + MAX_ADDED_DOUBT
+            if with.thickened_to.is_some() == plan.thickened_to.is_some()
+                && with.doubtful_fraction <= plan.doubtful_fraction + MAX_ADDED_DOUBT
                 && with.corridor().is_some() =>
         {
             Ok(Some(with))

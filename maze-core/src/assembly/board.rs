@@ -1,8 +1,8 @@
 //! The board as it is drawn: the file's own faces where they show it, else the ground plan raised.
 
 use crate::assembly::frame::Frame;
+use crate::assembly::occupancy::Occupancy;
 use crate::assembly::polygons::doubled_area;
-use crate::assembly::section::Section;
 use crate::assembly::slice::FaceKind;
 use crate::assembly::surface::{Surface, SurfaceBuilder, SurfaceMesh};
 use crate::assembly::survey::{Survey, Tally};
@@ -12,11 +12,11 @@ use crate::physics::numbers::{greater, lesser};
 use crate::physics::wall::Plane;
 use nalgebra::{Vector2, Vector3};
 
-/// A lid over more than this part of the corridors is a roof.
-const ROOF_PART: f64 = 0.5;
+/// A lid over more than this fraction of the corridors is a roof.
+const ROOF_FRACTION: f64 = 0.5;
 
-/// Where more than this part of the walls has no top in the file, tops are laid.
-const BARE_PART: f64 = 0.02;
+/// Where more than this fraction of the walls has no top in the file, tops are laid.
+const BARE_FRACTION: f64 = 0.02;
 
 /// How much more area must speak against the plan than for it before walls and corridors change places.
 const CONTRARY_RATIO: f64 = 9.0;
@@ -24,8 +24,8 @@ const CONTRARY_RATIO: f64 = 9.0;
 /// How far below the wall tops they lie (units): hidden where the file has some after all.
 const LAID_DROP: f64 = 0.005;
 
-/// Most rectangles of the plan looked at to find a roof: some seconds. Faces that overlap a thousandfold are no roof.
-const MAX_LOOKS: usize = 1 << 26;
+/// Most rectangles of the plan that are visited to find a roof: some seconds. Faces that overlap a thousandfold are no roof.
+const MAX_VISITS: usize = 1 << 26;
 
 /// Most corners that are drawn as the file has them, and the most work to cut them into triangles (squared corners of
 /// polygons): a file with more is drawn from its ground plan. So many corners are 128 MiB of the 256 MiB that a graphics
@@ -33,14 +33,14 @@ const MAX_LOOKS: usize = 1 << 26;
 const MAX_DRAWN_CORNERS: usize = 1 << 22;
 const MAX_CUTTING: usize = 1 << 28;
 
-/// A slanted face is wall when its normal rises less than this (sine), else it looks up or down.
+/// A slanted face is wall when its normal rises less than this (sine), else it faces up or down.
 const SIN_STEEP: f64 = 0.7;
 
 /// What of the plan lies under which faces.
 pub(crate) struct Covers {
     /// By cell, row by row: has a top above it.
     topped: Vec<bool>,
-    /// Part of the corridors, and of the walls, that has a top.
+    /// Fraction of the corridors, and of the walls, that has a top.
     topped_parts: [f64; 2],
     /// Faces above the corridors.
     roof: Tally,
@@ -50,11 +50,11 @@ pub(crate) struct Covers {
 }
 
 impl Covers {
-    /// Looks at every rectangle of the plan, which must be in file units.
-    pub(crate) fn new(survey: &Survey, section: &Section) -> Self {
-        let [n_x, n_y] = section.n_cells();
+    /// Visits every rectangle of the plan, which must be in file units.
+    pub(crate) fn new(survey: &Survey, plan: &Occupancy) -> Self {
+        let [n_x, n_y] = plan.n_cells();
         let [mut topped, mut lidded, mut floored] = [0; 3].map(|_| vec![false; n_x * n_y]);
-        let (mut n_looks, mut roof) = (0_usize, Tally::default());
+        let (mut n_visits, mut roof) = (0_usize, Tally::default());
         let mut crossings = Vec::new();
         let (tops_from, seen_from) = (survey.tops_from(), survey.seen_from());
         let mut low_tops = Vec::new();
@@ -67,26 +67,26 @@ impl Covers {
                 FaceKind::Down if is_high => &mut lidded,
                 _ => return,
             };
-            let columns = within(&section.xs, corners.iter().map(|corner| corner.x));
-            let rows = within(&section.ys, corners.iter().map(|corner| corner.y));
-            n_looks = n_looks.saturating_add(columns.len() * rows.len());
-            if MAX_LOOKS < n_looks {
+            let columns = within(&plan.xs, corners.iter().map(|corner| corner.x));
+            let rows = within(&plan.ys, corners.iter().map(|corner| corner.y));
+            n_visits = n_visits.saturating_add(columns.len() * rows.len());
+            if MAX_VISITS < n_visits {
                 return;
             }
             let mut is_over_free = false;
             for j in rows {
-                cross(corners, (section.ys[j] + section.ys[j + 1]) / 2.0, &mut crossings);
+                cross(corners, (plan.ys[j] + plan.ys[j + 1]) / 2.0, &mut crossings);
                 for i in columns.clone() {
-                    let middle = (section.xs[i] + section.xs[i + 1]) / 2.0;
+                    let middle = (plan.xs[i] + plan.xs[i + 1]) / 2.0;
                     let n_left = crossings.partition_point(|x| *x <= middle);
                     // Inside of a polygon an odd number of its sides lies to the right.
                     if (crossings.len() - n_left) % 2 == 1 {
                         // The top of a low wall is no floor.
-                        if is_low_top && section.is_solid(i, j) {
+                        if is_low_top && plan.is_solid(i, j) {
                             low_tops.push(j * n_x + i);
                         }
                         cover[j * n_x + i] = true;
-                        is_over_free |= !section.is_solid(i, j);
+                        is_over_free |= !plan.is_solid(i, j);
                     }
                 }
             }
@@ -98,23 +98,23 @@ impl Covers {
             topped[cell] = true;
         }
         let mut covers = Self { topped, topped_parts: [0.0, 1.0], roof, agrees: 0.0, disagrees: 0.0 };
-        if n_looks <= MAX_LOOKS {
-            covers.sum_up(section, &lidded, &floored);
+        if n_visits <= MAX_VISITS {
+            covers.sum_up(plan, &lidded, &floored);
         }
         covers
     }
 
-    fn sum_up(&mut self, section: &Section, lidded: &[bool], floored: &[bool]) {
-        let [n_x, n_y] = section.n_cells();
+    fn sum_up(&mut self, plan: &Occupancy, lidded: &[bool], floored: &[bool]) {
+        let [n_x, n_y] = plan.n_cells();
         let (mut areas, mut topped_areas) = ([0.0; 2], [0.0; 2]);
         for j in 0..n_y {
             for i in 0..n_x {
                 let cell = j * n_x + i;
-                let area = (section.xs[i + 1] - section.xs[i]) * (section.ys[j + 1] - section.ys[j]);
-                let is_solid = section.is_solid(i, j);
+                let area = (plan.xs[i + 1] - plan.xs[i]) * (plan.ys[j + 1] - plan.ys[j]);
+                let is_solid = plan.is_solid(i, j);
                 areas[usize::from(is_solid)] += area;
                 topped_areas[usize::from(is_solid)] += if self.topped[cell] { area } else { 0.0 };
-                // A cell with both, or with none, says nothing.
+                // A cell with both, or with none, decides nothing.
                 let is_high = self.topped[cell] || lidded[cell];
                 if is_high != floored[cell] {
                     *(if is_high == is_solid { &mut self.agrees } else { &mut self.disagrees }) += area;
@@ -127,7 +127,7 @@ impl Covers {
         });
     }
 
-    /// Whether the walls are where the plan is free: a surface without outer sides looks into its corridors all round.
+    /// Whether the walls are where the plan is free: the sides of a surface without outer sides all face its corridors.
     pub(crate) fn is_turned_over(&self) -> bool {
         CONTRARY_RATIO * self.agrees < self.disagrees
     }
@@ -140,12 +140,12 @@ impl Covers {
     }
 
     fn has_roof(&self) -> bool {
-        ROOF_PART < self.topped_parts[0]
+        ROOF_FRACTION < self.topped_parts[0]
     }
 
     /// Whether this cell, a solid one, needs a top.
     fn is_bare(&self, cell: usize) -> bool {
-        self.has_roof() || (self.topped_parts[1] < 1.0 - BARE_PART && !self.topped[cell])
+        self.has_roof() || (self.topped_parts[1] < 1.0 - BARE_FRACTION && !self.topped[cell])
     }
 }
 
@@ -171,18 +171,18 @@ fn cross(corners: &[Vector3<f64>], y: f64, crossings: &mut Vec<f64>) {
     crossings.sort_unstable_by(f64::total_cmp);
 }
 
-/// The board in maze units; `section` is the plan in these.
+/// The board in maze units; `plan` is the plan in these.
 pub(crate) fn surface(
     survey: &Survey,
-    section: &Section,
+    plan: &Occupancy,
     frame: &Frame,
     openings: &[Plane],
     covers: &Covers,
 ) -> SurfaceMesh {
-    let [low, high] = section.corners().map(|[x, y]| Vector2::new(x, y));
+    let [low, high] = plan.corners().map(|[x, y]| Vector2::new(x, y));
     let wall_height = frame.z(survey.top_z);
     let (n_corners, cutting) = survey.drawing_costs();
-    let from_plan = section.thickened_to.is_some() || MAX_DRAWN_CORNERS < n_corners || MAX_CUTTING < cutting;
+    let from_plan = plan.thickened_to.is_some() || MAX_DRAWN_CORNERS < n_corners || MAX_CUTTING < cutting;
     let mut builder = SurfaceBuilder::default();
     if !from_plan {
         builder.reserve(n_corners);
@@ -190,9 +190,9 @@ pub(crate) fn surface(
     }
     let drop = if from_plan || covers.has_roof() { 0.0 } else { LAID_DROP };
     let is_bare = |cell: usize| from_plan || covers.is_bare(cell);
-    raised_tops(section, is_bare, wall_height - drop, &mut builder);
+    raised_tops(plan, is_bare, wall_height - drop, &mut builder);
     if from_plan {
-        section.sides().for_each(|side| builder.side(&side, wall_height));
+        plan.sides().for_each(|side| builder.side(&side, wall_height));
     }
     if from_plan || !survey.has_floor {
         builder.floor(Bounds { low, high });
@@ -203,13 +203,13 @@ pub(crate) fn surface(
     builder.finish()
 }
 
-/// The file's faces but for those that look down, and the roof and what is under it.
+/// The file's faces but for those that face down, and the roof and what is under it.
 fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut SurfaceBuilder) {
     let tops_from = survey.tops_from();
     let mut moved = Vec::new();
     survey.each(|_, kind, corners| {
         let is_high = || corners.iter().all(|corner| tops_from < corner.z);
-        let looks = match kind {
+        let kind = match kind {
             FaceKind::OffAxis => {
                 let doubled = doubled_area(corners);
                 match doubled.z / doubled.norm() {
@@ -220,7 +220,7 @@ fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut Surfa
             }
             kind => kind,
         };
-        let surface = match looks {
+        let surface = match kind {
             FaceKind::Wall(_) | FaceKind::OffAxis => Surface::Wall,
             FaceKind::Up if is_high() && has_roof => return,
             FaceKind::Up if is_high() => Surface::Top,
@@ -234,15 +234,10 @@ fn own_faces(survey: &Survey, frame: &Frame, has_roof: bool, builder: &mut Surfa
 }
 
 /// Tops over what is solid and bare, in strips along x.
-fn raised_tops(
-    section: &Section,
-    is_bare: impl Fn(usize) -> bool,
-    height: f64,
-    builder: &mut SurfaceBuilder,
-) {
-    let [n_x, n_y] = section.n_cells();
+fn raised_tops(plan: &Occupancy, is_bare: impl Fn(usize) -> bool, height: f64, builder: &mut SurfaceBuilder) {
+    let [n_x, n_y] = plan.n_cells();
     for j in 0..n_y {
-        let needs_top = |i: usize| section.is_solid(i, j) && is_bare(j * n_x + i);
+        let needs_top = |i: usize| plan.is_solid(i, j) && is_bare(j * n_x + i);
         let mut i = 0;
         while i < n_x {
             let first = i;
@@ -250,7 +245,7 @@ fn raised_tops(
                 i += 1;
             }
             if first < i {
-                let (x, y) = ([section.xs[first], section.xs[i]], [section.ys[j], section.ys[j + 1]]);
+                let (x, y) = ([plan.xs[first], plan.xs[i]], [plan.ys[j], plan.ys[j + 1]]);
                 let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| Vector3::new(x[i], y[j], height));
                 builder.polygon(Surface::Top, &corners);
             }

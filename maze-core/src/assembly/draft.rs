@@ -1,64 +1,64 @@
 //! From raw wall faces to the ground plan: noise merged, faces summed up, what does not close refused.
 
-use crate::assembly::section::Section;
+use crate::assembly::occupancy::Occupancy;
 use crate::assembly::winding::{Coordinates, Edge, FaceRun, Repeats, edges, runs, used_coordinates, votes};
 use crate::physics::numbers::{greater, lesser};
 use crate::physics::wall::{Facing, Plane};
 
-/// Coordinates nearer than this part of the plan's size are one coordinate: between the rounding of a file with six
+/// Coordinates nearer than this fraction of the plan's size are one coordinate: between the rounding of a file with six
 /// decimals (1e-6) and the thinnest wall of a maze of a thousand corridors (1e-4).
-const MERGE_PART: f64 = 1.0e-5;
+const MERGE_FRACTION: f64 = 1.0e-5;
 
-/// Coordinates nearer than this part of the plan's size are noise and one coordinate, ...
-const NOISE_PART: f64 = 1.0e-3;
-/// ... but never more than this part of a wall's thickness ...
+/// Coordinates nearer than this fraction of the plan's size are noise and one coordinate, ...
+const NOISE_FRACTION: f64 = 1.0e-3;
+/// ... but never more than this fraction of a wall's thickness ...
 const NOISE_OF_THICKNESS: f64 = 0.25;
-/// ... nor than this part of a corridor.
+/// ... nor than this fraction of a corridor.
 const NOISE_OF_CORRIDOR: f64 = 1.0 / 16.0;
 
-/// A wall nearer to the rim of the plan than this part of a corridor is the rim.
+/// A wall nearer to the rim of the plan than this fraction of a corridor is the rim.
 const RIM_OF_CORRIDOR: f64 = 1.0 / 8.0;
 
 /// Most rectangles of any plan: a maze of 1024 x 1024 cells has 2050 x 2050 distinct coordinates.
 const MAX_CELLS: usize = 2050 * 2050;
 /// Most rectangles of the plan of a few faces, and how many more for each end of a face: a maze of n x n cells has some 4 n²
-/// rectangles and 3 n² ends. A rectangle takes some 60 bytes to find the way through, so no small file takes much memory.
+/// rectangles and 3 n² ends. A rectangle takes some 60 bytes to find the paths through, so no small file takes much memory.
 const MAX_CELLS_ANYWAY: usize = 1 << 19;
 const MAX_CELLS_PER_EDGE: usize = 4;
 
-/// Thickness of walls that have none, as a part of the corridor.
-const THICKENED_PART: f64 = 0.1;
-/// What they get to find the corridor by, as a part of the plan's size.
+/// Thickness of walls that have none, as a fraction of the corridor.
+const THICKENED_FRACTION: f64 = 0.1;
+/// What they get to find the corridor by, as a fraction of the plan's size.
 const THICKENED_FIRST: f64 = 1.0e-4;
 
-/// Part of the ties above which the walls have two sides and only lack their ends.
-const ENDLESS_PART: f64 = 0.9;
+/// Fraction of the ties above which the walls have two sides and only lack their ends.
+const ENDLESS_FRACTION: f64 = 0.9;
 
-/// Part of the faces' ends that meet no other face from which on the faces are walls without thickness, seen from one side.
-const LOOSE_PART: f64 = 0.5;
+/// Fraction of the faces' ends that meet no other face from which on the faces are walls without thickness, seen from one side.
+const LOOSE_FRACTION: f64 = 0.5;
 
-/// Part of the plan in doubt from which on faces are counted in other ways too.
+/// Fraction of the plan in doubt from which on faces are counted in other ways too.
 const MAX_DOUBT: f64 = 0.02;
 
-/// Most pairs of a face and a sheet that are compared.
+/// Most pairs of a face and a thin_wall that are compared.
 const MAX_PAIRS: usize = 1 << 26;
 
 /// Percent of the walls' length that may be faces without thickness, which are no walls, before the file is refused.
 const MAX_SHEET_PERCENT: f64 = 1.0;
 
-/// A face without thickness longer than this part of a corridor is met all the same.
+/// A face without thickness longer than this fraction of a corridor is met all the same.
 const SHEET_OF_CORRIDOR: f64 = 0.25;
 
-/// Percent of the plan that may look solid from two sides and free from the other two before the walls count as open.
+/// Percent of the plan that may count as solid from two sides and free from the other two before the walls count as open.
 /// A careless modeller's forgotten face stays below it.
 const MAX_TIED_PERCENT: f64 = 1.0;
 
 /// Why wall faces make no ground plan.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum SectionError {
+pub enum PlanError {
     /// The walls do not close.
     #[error(
-        "the walls are not closed: {percent:.1} % of the plan looks solid from two sides and free from the other two, \
+        "the walls are not closed: {percent:.1} % of the plan counts as solid from two sides and free from the other two, \
          first near ({x}, {y}) across the up axis; expected walls with two sides and closed ends"
     )]
     Open {
@@ -69,12 +69,12 @@ pub enum SectionError {
         /// File units, up axis turned to z.
         y: f64,
     },
-    /// Faces that part nothing from nothing.
+    /// Faces with free space on both sides.
     #[error(
         "{percent:.1} % of the walls' length has the same on both sides, first near ({x}, {y}) across the up axis; \
          expected walls around a corridor"
     )]
-    Sheets {
+    ThinWalls {
         /// Share of the length of all wall faces.
         percent: f64,
         /// File units, up axis turned to z.
@@ -99,22 +99,22 @@ pub enum SectionError {
 
 /// A plan that has not been judged yet, and what it was summed up from.
 struct Draft {
-    section: Section,
+    plan: Occupancy,
     edges: Vec<Edge>,
     used: [Vec<Option<usize>>; 2],
     tied_percent: f64,
     first_tie: Option<[f64; 2]>,
-    /// Part of the tied area that looks solid from both sides along one axis and free from both along the other.
+    /// Fraction of the tied area that counts as solid from both sides along one axis and free from both along the other.
     endless_part: f64,
     endless: Vec<usize>,
 }
 
-impl Section {
+impl Occupancy {
     /// Sums up wall faces. `raw` must not be empty.
-    pub(crate) fn new(raw: &[Plane]) -> Result<Self, SectionError> {
+    pub(crate) fn new(raw: &[Plane]) -> Result<Self, PlanError> {
         // How far a plan is from one without a doubt.
-        let doubt = |section: &Result<Self, SectionError>| match section {
-            Ok(section) if section.thickened_to.is_none() => section.doubtful_fraction,
+        let doubt = |plan: &Result<Self, PlanError>| match plan {
+            Ok(plan) if plan.thickened_to.is_none() => plan.doubtful_fraction,
             _ => f64::INFINITY,
         };
         let mut best = Self::summed(raw, Repeats::Count);
@@ -131,50 +131,50 @@ impl Section {
         best
     }
 
-    fn summed(raw: &[Plane], repeats: Repeats) -> Result<Self, SectionError> {
+    fn summed(raw: &[Plane], repeats: Repeats) -> Result<Self, PlanError> {
         let size = size(raw);
-        let fine = Draft::new(raw, size * MERGE_PART, repeats)?;
-        let within = fine.section.noise(size);
-        let draft = if fine.section.narrowest_gap() < within {
+        let fine = Draft::new(raw, size * MERGE_FRACTION, repeats)?;
+        let within = fine.plan.noise(size);
+        let draft = if fine.plan.narrowest_gap() < within {
             let merged = Draft::new(raw, within, repeats)?;
             // Noise is merged to help; where that does not, the file is taken as it is.
             match (fine.fault(), merged.fault()) {
                 (None, Some(_)) => fine,
-                _ => Draft { section: Self { merged_within: Some(within), ..merged.section }, ..merged },
+                _ => Draft { plan: Self { merged_within: Some(within), ..merged.plan }, ..merged },
             }
         } else {
             fine
         };
         let fault = draft.fault();
         let max = MAX_CELLS_ANYWAY + MAX_CELLS_PER_EDGE * draft.edges.len();
-        if fault.is_none() && max < draft.section.solid.len() {
-            return Err(draft.section.too_fine(max));
+        if fault.is_none() && max < draft.plan.solid.len() {
+            return Err(draft.plan.too_fine(max));
         }
-        let (solid, sheets) = match fault {
-            _ if LOOSE_PART < draft.loose_part() => {
-                if ENDLESS_PART < draft.endless_part {
+        let (solid, thin_walls) = match fault {
+            _ if LOOSE_FRACTION < draft.loose_part() => {
+                if ENDLESS_FRACTION < draft.endless_part {
                     return draft.with_ends();
                 }
                 // Faces seen from one side must not count for winding; those of both sides cancel.
                 (&[][..], joined(raw))
             }
             None => return Ok(draft.with_sheets(raw, size, max)),
-            Some(SectionError::Sheets { .. }) => (raw, draft.sheets().2),
+            Some(PlanError::ThinWalls { .. }) => (raw, draft.thin_walls().2),
             Some(fault) => return Err(fault),
         };
-        thickened(solid, &sheets, size, max)?.ok_or(fault.unwrap_or(SectionError::Nothing))
+        thickened(solid, &thin_walls, size, max)?.ok_or(fault.unwrap_or(PlanError::Nothing))
     }
 
-    fn too_fine(&self, max: usize) -> SectionError {
-        SectionError::TooFine { n_x: self.xs.len(), n_y: self.ys.len(), max }
+    fn too_fine(&self, max: usize) -> PlanError {
+        PlanError::TooFine { n_x: self.xs.len(), n_y: self.ys.len(), max }
     }
 
     /// The tolerance within which coordinates are noise.
     fn noise(&self, size: f64) -> f64 {
         let [thin, narrow] = self.thin_and_narrow();
-        let of = |width: Option<f64>, part: f64| width.map(|width| width * part);
+        let of = |width: Option<f64>, fraction: f64| width.map(|width| width * fraction);
         let limits = [of(thin, NOISE_OF_THICKNESS), of(narrow, NOISE_OF_CORRIDOR)];
-        limits.into_iter().flatten().fold(size * NOISE_PART, lesser)
+        limits.into_iter().flatten().fold(size * NOISE_FRACTION, lesser)
     }
 
     /// Between two coordinates next to each other.
@@ -202,27 +202,27 @@ fn size(raw: &[Plane]) -> f64 {
 /// The plan with walls around faces that have no thickness; `None` where that makes no maze either.
 fn thickened(
     solid: &[Plane],
-    sheets: &[Plane],
+    thin_walls: &[Plane],
     size: f64,
     max_cells: usize,
-) -> Result<Option<Section>, SectionError> {
+) -> Result<Option<Occupancy>, PlanError> {
     let with = |thickness: f64| {
-        let boxes = sheets.iter().flat_map(|sheet| around(sheet, thickness / 2.0));
+        let boxes = thin_walls.iter().flat_map(|thin_wall| around(thin_wall, thickness / 2.0));
         let raw: Vec<Plane> = solid.iter().copied().chain(boxes).collect();
-        let draft = Draft::new(&raw, size * MERGE_PART, Repeats::Count)?;
-        match max_cells < draft.section.solid.len() {
-            true => Err(draft.section.too_fine(max_cells)),
+        let draft = Draft::new(&raw, size * MERGE_FRACTION, Repeats::Count)?;
+        match max_cells < draft.plan.solid.len() {
+            true => Err(draft.plan.too_fine(max_cells)),
             false => Ok(draft.fault().is_none().then(|| draft.finish())),
         }
     };
-    let Some(corridor) = with(size * THICKENED_FIRST)?.and_then(|section| section.corridor()) else {
+    let Some(corridor) = with(size * THICKENED_FIRST)?.and_then(|plan| plan.corridor()) else {
         return Ok(None);
     };
-    let thickness = THICKENED_PART * corridor;
-    Ok(with(thickness)?.map(|section| Section { thickened_to: Some(thickness), ..section }))
+    let thickness = THICKENED_FRACTION * corridor;
+    Ok(with(thickness)?.map(|plan| Occupancy { thickened_to: Some(thickness), ..plan }))
 }
 
-/// Faces along the same lines, whichever way they look, as few as can be.
+/// Faces along the same lines, whichever way they face, as few as can be.
 fn joined(raw: &[Plane]) -> Vec<Plane> {
     let mut joined = raw.to_vec();
     joined.sort_unstable_by(|a, b| {
@@ -241,10 +241,10 @@ fn joined(raw: &[Plane]) -> Vec<Plane> {
 }
 
 /// A wall that reaches so far beyond a face on every side.
-fn around(sheet: &Plane, by: f64) -> [Plane; 4] {
-    let across = [sheet.offset - by, sheet.offset + by];
-    let along = [sheet.start - by, sheet.end + by];
-    let [x, y] = if sheet.facing.axis() == 0 { [across, along] } else { [along, across] };
+fn around(thin_wall: &Plane, by: f64) -> [Plane; 4] {
+    let across = [thin_wall.offset - by, thin_wall.offset + by];
+    let along = [thin_wall.start - by, thin_wall.end + by];
+    let [x, y] = if thin_wall.facing.axis() == 0 { [across, along] } else { [along, across] };
     let plane = |facing, offset, [start, end]: [f64; 2]| Plane { facing, offset, start, end };
     [
         plane(Facing::MinusX, x[0], y),
@@ -255,7 +255,7 @@ fn around(sheet: &Plane, by: f64) -> [Plane; 4] {
 }
 
 impl Draft {
-    fn new(raw: &[Plane], tolerance: f64, repeats: Repeats) -> Result<Self, SectionError> {
+    fn new(raw: &[Plane], tolerance: f64, repeats: Repeats) -> Result<Self, PlanError> {
         let coordinates = [0, 1].map(|axis| {
             let mut values = Vec::with_capacity(2 * raw.len());
             for plane in raw {
@@ -275,10 +275,10 @@ impl Draft {
         });
         let (n_x, n_y) = (xs.len(), ys.len());
         if n_x.checked_mul(n_y).is_none_or(|cells| MAX_CELLS < cells) {
-            return Err(SectionError::TooFine { n_x, n_y, max: MAX_CELLS });
+            return Err(PlanError::TooFine { n_x, n_y, max: MAX_CELLS });
         }
         if n_x < 2 || n_y < 2 {
-            return Err(SectionError::Nothing);
+            return Err(PlanError::Nothing);
         }
         let votes = [0, 1].map(|axis| {
             let n_cells = [n_x - 1, n_y - 1];
@@ -287,7 +287,7 @@ impl Draft {
         Ok(Self::from_votes([xs, ys], &votes, edges, used))
     }
 
-    /// `votes[0][j * n_x + i]` and `votes[1][i * n_y + j]` say how often cell (i, j) looked solid, 0 to 2 times each.
+    /// `votes[0][j * n_x + i]` and `votes[1][i * n_y + j]` say how often cell (i, j) counted as solid, 0 to 2 times each.
     fn from_votes(
         [xs, ys]: [Vec<f64>; 2],
         votes: &[Vec<u8>; 2],
@@ -315,7 +315,7 @@ impl Draft {
             }
         }
         let area = (xs[n_x] - xs[0]) * (ys[n_y] - ys[0]);
-        let section = Section {
+        let plan = Occupancy {
             xs,
             ys,
             solid,
@@ -326,23 +326,23 @@ impl Draft {
         };
         let tied_percent = 100.0 * tied_area / area;
         let endless_part = if 0.0 < tied_area { endless_area / tied_area } else { 0.0 };
-        Self { section, edges, used, tied_percent, first_tie, endless_part, endless }
+        Self { plan, edges, used, tied_percent, first_tie, endless_part, endless }
     }
 
     /// Why this is no plan.
-    fn fault(&self) -> Option<SectionError> {
+    fn fault(&self) -> Option<PlanError> {
         if let Some([x, y]) = self.first_tie.filter(|_| MAX_TIED_PERCENT < self.tied_percent) {
-            return Some(SectionError::Open { percent: self.tied_percent, x, y });
+            return Some(PlanError::Open { percent: self.tied_percent, x, y });
         }
-        let (percent, first, _) = self.sheets();
+        let (percent, first, _) = self.thin_walls();
         let [x, y] = first.filter(|_| MAX_SHEET_PERCENT < percent)?;
-        Some(SectionError::Sheets { percent, x, y })
+        Some(PlanError::ThinWalls { percent, x, y })
     }
 
     /// The plan of walls whose ends are missing: solid between two sides.
-    fn with_ends(mut self) -> Result<Section, SectionError> {
+    fn with_ends(mut self) -> Result<Occupancy, PlanError> {
         for cell in std::mem::take(&mut self.endless) {
-            self.section.solid[cell] = true;
+            self.plan.solid[cell] = true;
         }
         self.first_tie = None;
         match self.fault() {
@@ -352,85 +352,85 @@ impl Draft {
     }
 
     /// The plan with the few faces without thickness that stand in it, where that makes a maze.
-    fn with_sheets(self, raw: &[Plane], size: f64, max_cells: usize) -> Section {
-        let mut sheets = self.sheets().2;
+    fn with_sheets(self, raw: &[Plane], size: f64, max_cells: usize) -> Occupancy {
+        let mut thin_walls = self.thin_walls().2;
         let plain = self.finish();
         let [_, narrow] = plain.thin_and_narrow();
         let least = SHEET_OF_CORRIDOR * narrow.unwrap_or(0.0);
-        sheets.retain(|sheet| least < sheet.end - sheet.start);
-        if sheets.is_empty() || MAX_PAIRS < raw.len().saturating_mul(sheets.len()) {
+        thin_walls.retain(|thin_wall| least < thin_wall.end - thin_wall.start);
+        if thin_walls.is_empty() || MAX_PAIRS < raw.len().saturating_mul(thin_walls.len()) {
             return plain;
         }
         // The faces themselves would count for winding.
-        let within = size * NOISE_PART;
+        let within = size * NOISE_FRACTION;
         let is_sheet = |face: &&Plane| {
-            let lies_on = |sheet: &Plane| {
-                sheet.facing.axis() == face.facing.axis()
-                    && (sheet.offset - face.offset).abs() <= within
-                    && sheet.start - within <= face.start
-                    && face.end <= sheet.end + within
+            let lies_on = |thin_wall: &Plane| {
+                thin_wall.facing.axis() == face.facing.axis()
+                    && (thin_wall.offset - face.offset).abs() <= within
+                    && thin_wall.start - within <= face.start
+                    && face.end <= thin_wall.end + within
             };
-            sheets.iter().any(lies_on)
+            thin_walls.iter().any(lies_on)
         };
         let solid: Vec<Plane> = raw.iter().filter(|face| !is_sheet(face)).copied().collect();
-        match thickened(&solid, &sheets, size, max_cells) {
-            Ok(Some(section)) => section,
+        match thickened(&solid, &thin_walls, size, max_cells) {
+            Ok(Some(plan)) => plan,
             _ => plain,
         }
     }
 
-    fn finish(mut self) -> Section {
-        self.section.inverted = self.enters_more_than_leaves() < 0;
-        if let [_, Some(narrow)] = self.section.thin_and_narrow() {
-            self.section.fill_rim(RIM_OF_CORRIDOR * narrow);
+    fn finish(mut self) -> Occupancy {
+        self.plan.inverted = self.enters_more_than_leaves() < 0;
+        if let [_, Some(narrow)] = self.plan.thin_and_narrow() {
+            self.plan.fill_rim(RIM_OF_CORRIDOR * narrow);
         }
-        self.section
+        self.plan
     }
 
     fn runs(&self) -> impl Iterator<Item = FaceRun> {
         [0, 1].into_iter().flat_map(|axis| runs(&self.edges, &self.used, axis))
     }
 
-    /// Wall faces that part nothing from nothing, both sides at one place or one side alone: their percentage of all, where
+    /// Wall faces with free space on both sides, both sides at one place or one side alone: their percentage of all, where
     /// the first one is, and all of them.
-    fn sheets(&self) -> (f64, Option<[f64; 2]>, Vec<Plane>) {
-        let section = &self.section;
-        let (mut length, mut sheet_length, mut first) = (0.0, 0.0, None);
-        let mut sheets: Vec<Plane> = Vec::new();
+    fn thin_walls(&self) -> (f64, Option<[f64; 2]>, Vec<Plane>) {
+        let plan = &self.plan;
+        let (mut length, mut thin_length, mut first) = (0.0, 0.0, None);
+        let mut thin_walls: Vec<Plane> = Vec::new();
         for run in self.runs() {
-            let (offsets, alongs) =
-                if run.axis == 0 { (&section.xs, &section.ys) } else { (&section.ys, &section.xs) };
+            let (offsets, alongs) = if run.axis == 0 { (&plan.xs, &plan.ys) } else { (&plan.ys, &plan.xs) };
             for across in run.across {
                 let extent = alongs[across + 1] - alongs[across];
                 length += extent;
                 // The frame is no wall here: beyond it all is free.
-                let is_free = |step: usize| !section.at_step(run.axis, step, across).unwrap_or(false);
+                let is_free = |step: usize| !plan.at_step(run.axis, step, across).unwrap_or(false);
                 if is_free(run.step) && is_free(run.step + 1) {
-                    sheet_length += extent;
+                    thin_length += extent;
                     let (i, j) = if run.axis == 0 { (run.step, across) } else { (across, run.step) };
-                    first = first.or(Some([section.xs[i], section.ys[j]]));
+                    first = first.or(Some([plan.xs[i], plan.ys[j]]));
                     let facing = if run.axis == 0 { Facing::PlusX } else { Facing::PlusY };
                     let (start, end) = (alongs[across], alongs[across + 1]);
-                    let sheet = Plane { facing, offset: offsets[run.step], start, end };
-                    match sheets.last_mut() {
+                    let thin_wall = Plane { facing, offset: offsets[run.step], start, end };
+                    match thin_walls.last_mut() {
                         Some(Plane { facing, offset, end, .. })
-                            if (*facing, *offset, *end) == (sheet.facing, sheet.offset, sheet.start) =>
+                            if (*facing, *offset, *end)
+                                == (thin_wall.facing, thin_wall.offset, thin_wall.start) =>
                         {
-                            *end = sheet.end;
+                            *end = thin_wall.end;
                         }
-                        _ => sheets.push(sheet),
+                        _ => thin_walls.push(thin_wall),
                     }
                 }
             }
         }
-        (100.0 * sheet_length / length, first, sheets)
+        (100.0 * thin_length / length, first, thin_walls)
     }
 
     /// On how many pieces of face, walked upwards from free into solid, a wall is entered as it should be, less those on
     /// which it is left.
     fn enters_more_than_leaves(&self) -> i64 {
         let of_run = |run: FaceRun| {
-            let is_solid = move |step, across| self.section.at_step(run.axis, step, across).unwrap_or(false);
+            let is_solid = move |step, across| self.plan.at_step(run.axis, step, across).unwrap_or(false);
             let into_solid =
                 move |across: &usize| !is_solid(run.step, *across) && is_solid(run.step + 1, *across);
             i64::from(run.change.signum()) * run.across.filter(into_solid).map(|_| 1).sum::<i64>()
@@ -438,7 +438,7 @@ impl Draft {
         self.runs().map(of_run).sum()
     }
 
-    /// Part of the faces' ends at which the outline does not go on: nearly 0 for walls with two sides, nearly 1 for walls
+    /// Fraction of the faces' ends at which the outline does not go on: nearly 0 for walls with two sides, nearly 1 for walls
     /// that are single faces.
     fn loose_part(&self) -> f64 {
         // Going round with the wall on the left, a face leaves one point and comes to another.
@@ -449,8 +449,8 @@ impl Draft {
         }
         ends.sort_unstable();
         let points = ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
-        let loose: i32 = points.map(|point| point.iter().map(|end| end.2).sum::<i32>().abs()).sum();
+        let open_edges: i32 = points.map(|point| point.iter().map(|end| end.2).sum::<i32>().abs()).sum();
         let all: i32 = ends.iter().map(|end| end.2.abs()).sum();
-        if all == 0 { 0.0 } else { f64::from(loose) / f64::from(all) }
+        if all == 0 { 0.0 } else { f64::from(open_edges) / f64::from(all) }
     }
 }

@@ -1,14 +1,14 @@
 //! Why polygons are no maze.
 
-use crate::assembly::draft::SectionError;
+use crate::assembly::draft::PlanError;
 use crate::navigation::ends::{Endpoint, RouteError};
 use crate::physics::wall::PlaneError;
 use std::fmt::{Display, Formatter};
 use std::ops::RangeInclusive;
 
-/// Share of the upright and slanted area that may be off axis (and is then met as steps) before the file is no maze of
+/// Fraction of the upright and slanted area that may be off axis (and is then met as steps) before the file is no maze of
 /// axis-aligned walls. Rounded corners and a crooked piece stay below it.
-pub(crate) const MAX_OFF_AXIS_PART: f64 = 0.1;
+pub(crate) const MAX_OFF_AXIS_FRACTION: f64 = 0.1;
 
 /// Extents of a file that can be computed with (file units): squares and products of areas stay finite and above 0.
 pub(crate) const SIZES: RangeInclusive<f64> = 1.0e-12..=1.0e12;
@@ -23,7 +23,7 @@ pub enum Misfit {
     Leaning,
     /// Upright walls in other directions than two at right angles.
     Slanted,
-    /// Faces that look in all directions.
+    /// Faces in all directions.
     Curved,
 }
 
@@ -60,14 +60,14 @@ pub enum AssembleError {
     #[error(
         "not a maze of axis-aligned walls ({kind}): {percent:.1} % of the area that could be wall, {percent_of_all:.1} % of \
          all, is off axis by more than 1 degree; expected at most {max:.0} %",
-        max = 100.0 * MAX_OFF_AXIS_PART
+        max = 100.0 * MAX_OFF_AXIS_FRACTION
     )]
     OffAxis {
         /// What the off-axis part mostly is.
         kind: Misfit,
-        /// Share of the upright and slanted area.
+        /// Fraction of the upright and slanted area.
         percent: f64,
-        /// Share of the area of all faces.
+        /// Fraction of the area of all faces.
         percent_of_all: f64,
     },
     /// The walls stand elsewhere than on the floor.
@@ -81,7 +81,7 @@ pub enum AssembleError {
     Plane(#[from] PlaneError),
     /// The faces make no ground plan.
     #[error(transparent)]
-    Section(#[from] SectionError),
+    Occupancy(#[from] PlanError),
     /// Walls, but no space between them.
     #[error("no corridor: no two walls face each other across free space")]
     NoCorridor,

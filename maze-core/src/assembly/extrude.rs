@@ -114,7 +114,7 @@ impl<W: Fn(usize, usize) -> bool> Grid<W> {
         tops
     }
 
-    /// Runs of sides that look the same way, from and to, counter-clockwise around the wall.
+    /// Runs of sides that face the same way, from and to, counter-clockwise around the wall.
     fn sides(&self) -> Vec<[(usize, usize); 2]> {
         let [n_x, n_y] = self.size();
         let mut sides = Vec::new();

@@ -1,6 +1,6 @@
 //! From a file's units to maze units.
 
-use crate::assembly::section::Section;
+use crate::assembly::occupancy::Occupancy;
 use nalgebra::Vector3;
 
 /// A corridor this near to 1 unit is 1 unit: the rounding of a gap between two sums must not rescale a maze.
@@ -22,12 +22,12 @@ impl Frame {
     /// `corridor` is the corridor's width in the file, greater than 0; floor and wall tops are its z coordinates. `scale`
     /// is the user's, in maze units a unit of the file.
     pub(crate) fn new(
-        section: &Section,
+        plan: &Occupancy,
         [floor_z, top_z]: [f64; 2],
         corridor: f64,
         scale: Option<f64>,
     ) -> Self {
-        let [low, high] = section.corners();
+        let [low, high] = plan.corners();
         let own_scale = if (corridor - 1.0).abs() < UNIT_SCALE { 1.0 } else { 1.0 / corridor };
         let scale = scale.unwrap_or(own_scale);
         let height = (top_z - floor_z) * scale;

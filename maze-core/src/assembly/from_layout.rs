@@ -15,7 +15,7 @@ use nalgebra::Vector2;
 const MAX_PIECES: usize = 2050 * 130;
 
 /// Most faces of walls, each as long as can be: [`crate::MAX_GRID_CELLS`] have 130 to 165 thousand, by the algorithm. A few bytes of a
-/// picture can ask for any number of them, and it takes some 300 bytes each to find the way between them.
+/// picture can ask for any number of them, and it takes some 300 bytes each to find the paths between them.
 const MAX_FACES: usize = 180_000;
 
 /// Why blocks are no maze.

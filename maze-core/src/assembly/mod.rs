@@ -9,8 +9,8 @@ pub(crate) mod frame;
 pub(crate) mod from_layout;
 #[cfg(feature = "generate")]
 pub(crate) mod from_recipe;
+pub(crate) mod occupancy;
 pub(crate) mod polygons;
-pub(crate) mod section;
 pub(crate) mod slice;
 pub mod surface;
 pub(crate) mod survey;

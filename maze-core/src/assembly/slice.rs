@@ -10,7 +10,7 @@ pub(crate) const COS_SNAP: f64 = 0.999_847_7;
 /// The sine of that angle.
 pub(crate) const SIN_SNAP: f64 = 0.017_452_4;
 
-/// Faces below this part of the squared size of the mesh have no direction worth trusting.
+/// Faces below this fraction of the squared size of the mesh have no direction worth trusting.
 const DEGENERATE_AREA: f64 = 1.0e-12;
 
 /// What a face is by its normal.
@@ -18,9 +18,9 @@ const DEGENERATE_AREA: f64 = 1.0e-12;
 pub(crate) enum FaceKind {
     /// Upright along x or y.
     Wall(Facing),
-    /// Looks up: floor, or the top of a wall.
+    /// Upward: floor, or the top of a wall.
     Up,
-    /// Looks down: never seen, never met.
+    /// Downward: never seen, never met.
     Down,
     /// Upright or slanted, along no axis.
     OffAxis,
@@ -57,8 +57,8 @@ fn crossings(polygon: &[Vector3<f64>], along: usize, z: f64) -> Vec<Vector2<f64>
         .zip(next)
         .filter(|(a, b)| (a.z < z) != (b.z < z))
         .map(|(a, b)| {
-            let part = (z - a.z) / (b.z - a.z);
-            Vector2::new(a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part)
+            let fraction = (z - a.z) / (b.z - a.z);
+            Vector2::new(a.x + (b.x - a.x) * fraction, a.y + (b.y - a.y) * fraction)
         })
         .collect();
     crossings.sort_by(|a, b| a[along].total_cmp(&b[along]));
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_slanted_wall_becomes_steps_that_keep_the_outline_closed() {
-        // From (0, 0) to (4, 1), looking to lower right.
+        // From (0, 0) to (4, 1), its normal to the lower right.
         let wall = corners(&[[0.0, 0.0, 0.0], [4.0, 1.0, 0.0], [4.0, 1.0, 2.0], [0.0, 0.0, 2.0]]);
         let mut planes = Vec::new();
         cut(&wall, 1.0, &mut planes);

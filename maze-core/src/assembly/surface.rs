@@ -65,8 +65,8 @@ pub(crate) struct SurfaceBuilder {
     earcut: Earcut<f64>,
 }
 
-/// How high the bar across an opening stands, as a part of the wall height: seen, and not taken for a wall.
-const THRESHOLD_PART: f64 = 0.4;
+/// How high the bar across an opening stands, as a fraction of the wall height: seen, and not taken for a wall.
+const THRESHOLD_FRACTION: f64 = 0.4;
 /// How thick it is (units): about a wall of a generated maze.
 const THRESHOLD_DEPTH: f64 = 0.15;
 /// How far inwards of an opening a floor is laid (units), because some files end the floor at the inside of the wall.
@@ -123,8 +123,8 @@ impl SurfaceBuilder {
                 corner[1 - axis] = along;
                 corner
             });
-        let looks = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))[axis];
-        if looks * plane.facing.sign() < 0.0 {
+        let outward = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]))[axis];
+        if outward * plane.facing.sign() < 0.0 {
             corners.reverse();
         }
         self.polygon(Surface::Wall, &corners);
@@ -142,7 +142,7 @@ impl SurfaceBuilder {
     /// A low bar across an opening of the outer wall, where the frame stops the ball, and a floor to stand on before it.
     pub(crate) fn threshold(&mut self, opening: &Plane, wall_height: f64) {
         let axis = opening.facing.axis();
-        let height = THRESHOLD_PART * wall_height;
+        let height = THRESHOLD_FRACTION * wall_height;
         let outside = opening.offset - opening.facing.sign() * THRESHOLD_DEPTH;
         let inside = opening.offset + opening.facing.sign() * DOORSTEP;
         let corner = |across: f64, along: f64, z: f64| {

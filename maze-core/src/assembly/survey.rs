@@ -1,6 +1,6 @@
 //! What the faces of a mesh are: floor, walls, tops, and what fits no maze of axis-aligned walls.
 
-use crate::assembly::error::{AssembleError, MAX_OFF_AXIS_PART, Misfit, SIZES};
+use crate::assembly::error::{AssembleError, MAX_OFF_AXIS_FRACTION, Misfit, SIZES};
 use crate::assembly::polygons::{PolygonMesh, UpAxis, doubled_area};
 use crate::assembly::slice::{self, COS_SNAP, FaceKind, SIN_SNAP};
 use crate::maze::{FaceNote, FaceReason};
@@ -9,19 +9,19 @@ use crate::physics::wall::Plane;
 use nalgebra::{Vector2, Vector3};
 
 /// Where between floor and wall tops the walls are cut: below the middle, where many files have a seam.
-const CUT_PART: f64 = 0.47;
+const CUT_FRACTION: f64 = 0.47;
 
-/// A ball climbs what is lower than this part of its radius: at the game's steepest tilt of 20 degrees 0.06, some more with
+/// A ball climbs what is lower than this fraction of its radius: at the game's steepest tilt of 20 degrees 0.06, some more with
 /// speed.
-const CLIMBED_PART: f64 = 0.2;
+const CLIMBED_FRACTION: f64 = 0.2;
 
-/// What rises less than this part of the wall height above the floor is not worth a word.
-const SEEN_PART: f64 = 0.01;
+/// What rises less than this fraction of the wall height above the floor is not noted.
+const SEEN_FRACTION: f64 = 0.01;
 
-/// Upward faces nearer to the floor than this part of the wall height are floor, the others are tops of walls.
-const FLOOR_PART: f64 = 0.25;
+/// Upward faces nearer to the floor than this fraction of the wall height are floor, the others are tops of walls.
+const FLOOR_FRACTION: f64 = 0.25;
 
-/// Part of the plan's rectangle that upward faces at one height must cover to be a floor: corridors alone cover twice as much
+/// Fraction of the plan's rectangle that upward faces at one height must cover to be a floor: corridors alone cover twice as much
 /// and more, the tops of low blocks and pillars less.
 const FLOOR_SHARE: f64 = 0.2;
 
@@ -130,7 +130,7 @@ impl<'a> Survey<'a> {
         let upright = |corners: &[Vector3<f64>]| {
             let doubled = doubled_area(corners);
             let flat = doubled.xy().norm();
-            // Nothing comes of a face without area, or of one whose area is not a number any more.
+            // A face without area, or one whose area is not finite, has no direction.
             let is_upright = doubled.z.abs() <= SIN_SNAP * flat && 0.0 < flat && flat.is_finite();
             is_upright.then(|| (doubled.xy() / flat, flat))
         };
@@ -153,7 +153,7 @@ impl<'a> Survey<'a> {
                 fits += if across <= SIN_SNAP || along <= SIN_SNAP { area } else { 0.0 };
             }
         });
-        ((1.0 - MAX_OFF_AXIS_PART) * total <= fits).then_some(direction)
+        ((1.0 - MAX_OFF_AXIS_FRACTION) * total <= fits).then_some(direction)
     }
 
     fn classify(&mut self, size: f64) -> Result<(), AssembleError> {
@@ -204,7 +204,7 @@ impl<'a> Survey<'a> {
 
     /// The height at which the walls are cut.
     fn cut_height(&self) -> f64 {
-        self.floor_z + CUT_PART * (self.top_z - self.floor_z)
+        self.floor_z + CUT_FRACTION * (self.top_z - self.floor_z)
     }
 
     /// The walls as planes at one height.
@@ -224,7 +224,7 @@ impl<'a> Survey<'a> {
     /// The walls that end below the height at which the others are cut, as planes at a height that a ball of this radius (file
     /// units) cannot climb, and those that are lower still.
     pub(crate) fn low_walls(&self, radius: f64) -> LowWalls {
-        let (cut_height, low_height) = (self.cut_height(), self.floor_z + CLIMBED_PART * radius);
+        let (cut_height, low_height) = (self.cut_height(), self.floor_z + CLIMBED_FRACTION * radius);
         let seen_from = self.seen_from();
         let mut low = LowWalls::default();
         self.each(|face, kind, corners| {
@@ -245,7 +245,7 @@ impl<'a> Survey<'a> {
 
     /// What rises above this is more than the floor's unevenness.
     pub(crate) fn seen_from(&self) -> f64 {
-        self.floor_z + SEEN_PART * (self.top_z - self.floor_z)
+        self.floor_z + SEEN_FRACTION * (self.top_z - self.floor_z)
     }
 
     /// Notes walls that are drawn and not met.
@@ -268,7 +268,7 @@ impl<'a> Survey<'a> {
 
     /// Above this an upward face is the top of a wall.
     pub(crate) fn tops_from(&self) -> f64 {
-        self.floor_z + FLOOR_PART * (self.top_z - self.floor_z)
+        self.floor_z + FLOOR_FRACTION * (self.top_z - self.floor_z)
     }
 }
 
@@ -280,7 +280,7 @@ fn squared(z: Vector2<f64>) -> Vector2<f64> {
 /// The root with the smaller turn of a unit complex number: half the angle, -90 to 90 degrees.
 fn root(z: Vector2<f64>) -> Vector2<f64> {
     // Rounding can leave the number a little outside the circle.
-    let half = |part: f64| if 0.0 < part { (part / 2.0).sqrt() } else { 0.0 };
+    let half = |square: f64| if 0.0 < square { (square / 2.0).sqrt() } else { 0.0 };
     let (x, y) = (half(1.0 + z.x), half(1.0 - z.x));
     Vector2::new(x, if z.y < 0.0 { -y } else { y })
 }
@@ -378,7 +378,7 @@ impl Areas {
     /// Refuses what is no maze of axis-aligned walls, by what most of it is.
     fn refuse(&self) -> Result<(), AssembleError> {
         let (walls, off_axis) = (self.walls.area, self.off_axis.area);
-        if MAX_OFF_AXIS_PART * (walls + off_axis) < off_axis {
+        if MAX_OFF_AXIS_FRACTION * (walls + off_axis) < off_axis {
             let kind = match self.leaning < off_axis / 2.0 {
                 true => Misfit::Slanted,
                 false if self.leaning < 1.5 * self.leaning_on_axis => Misfit::Leaning,
@@ -419,10 +419,10 @@ struct Levels {
     upward: Vec<(f64, f64)>, // z, area
 }
 
-/// A tower, or a shaft, of less than this part of the walls' area does not say how high they are where it is more than twice
+/// A tower, or a shaft, of less than this fraction of the walls' area does not say how high they are where it is more than twice
 /// as high.
-const OUTLIER_PART: f64 = 0.1;
-/// How many sizes of tower are looked through.
+const OUTLIER_FRACTION: f64 = 0.1;
+/// How many sizes of tower are tried.
 const MAX_OUTLIERS: usize = 32;
 
 impl Levels {
@@ -458,7 +458,7 @@ impl Levels {
         let area = |of: &dyn Fn(&[f64; 3]) -> bool| {
             self.walls.iter().filter(|wall| of(wall)).map(|[_, _, area]| area).sum::<f64>()
         };
-        let few = OUTLIER_PART * area(&|_| true);
+        let few = OUTLIER_FRACTION * area(&|_| true);
         let (mut low, mut high) = (lowest(f64::NEG_INFINITY), highest(f64::INFINITY));
         for _ in 0..MAX_OUTLIERS {
             let middle = (low + high) / 2.0;
@@ -513,7 +513,7 @@ impl Levels {
     fn common_low(&mut self, lowest: f64, near: f64) -> f64 {
         self.walls.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let mut sunk = 0.0;
-        let few = OUTLIER_PART * self.walls.iter().map(|[_, _, area]| area).sum::<f64>();
+        let few = OUTLIER_FRACTION * self.walls.iter().map(|[_, _, area]| area).sum::<f64>();
         for level in self.walls.chunk_by(|a, b| b[0] - a[0] <= near) {
             sunk += level.iter().map(|[_, _, area]| area).sum::<f64>();
             if few <= sunk {

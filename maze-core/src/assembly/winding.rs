@@ -48,7 +48,7 @@ pub(crate) struct Edge {
 impl Edge {
     /// The point in the plan, and how many outlines, walls on their left, come to it less those that leave it.
     pub(crate) fn point_and_turn(&self) -> ([u32; 2], i32) {
-        // A wall face that looks towards +x is passed upwards, one that looks towards +y to the left.
+        // A wall face with normal +x is passed upwards, one with normal +y to the left.
         let ends_there = match self.facing {
             Facing::PlusX | Facing::MinusY => -self.change,
             Facing::MinusX | Facing::PlusY => self.change,
@@ -66,7 +66,7 @@ pub(crate) enum Repeats {
     Count,
     /// Once: a file may hold some faces twice for no reason.
     Once,
-    /// Of two that look opposite ways at one place the first one: a file may hold every face with its back.
+    /// Of two that face opposite ways at one place the first one: a file may hold every face with its back.
     Fronts,
 }
 
@@ -108,15 +108,15 @@ fn fronts(faces: Vec<[Edge; 2]>) -> Vec<[Edge; 2]> {
     order.sort_by_key(|face| place(&faces[*face]));
     let mut fronts = Vec::with_capacity(faces.len());
     for same in order.chunk_by(|a, b| place(&faces[*a]) == place(&faces[*b])) {
-        let mut unpaired = [0_usize; 2]; // faces kept so far without a back, by the way they look
+        let mut unpaired = [0_usize; 2]; // faces kept so far without a back, by the way they face
         for face in same.iter().map(|face| faces[*face]) {
-            let looks = usize::from(0.0 < face[0].facing.sign());
-            match unpaired[1 - looks] {
+            let side = usize::from(0.0 < face[0].facing.sign());
+            match unpaired[1 - side] {
                 0 => {
-                    unpaired[looks] += 1;
+                    unpaired[side] += 1;
                     fronts.push(face);
                 }
-                _ => unpaired[1 - looks] -= 1,
+                _ => unpaired[1 - side] -= 1,
             }
         }
     }
@@ -172,7 +172,7 @@ pub(crate) fn runs(
     })
 }
 
-/// How often each cell looks solid by the faces across `axis`, coming from the low side and coming from the high side:
+/// How often each cell counts as solid by the faces across `axis`, coming from the low side and coming from the high side:
 /// `[across * n_steps + step]`, 0 to 2. The two differ only on a line where a face is missing or extra.
 pub(crate) fn votes(
     edges: &[Edge],

@@ -74,7 +74,7 @@ fn is_wall_left(layout: &Layout, x: usize, row: usize) -> bool {
     }
 }
 
-/// The corners of a way through cells, from door to door; `None` without cells.
+/// The corners of a path through cells, from door to door; `None` without cells.
 fn solution_points(layout: &Layout, cells: &[usize]) -> Option<Vec<[usize; 2]>> {
     let (width, height) = (layout.width(), layout.height());
     let middle = |cell: usize| {

@@ -1,4 +1,4 @@
-//! Bytes -> polygons, layouts or blocks. Nothing in the physics knows of this.
+//! Bytes -> polygons, layouts or blocks. The physics does not depend on this.
 
 pub mod obj;
 pub mod picture;

@@ -30,20 +30,20 @@ impl CorridorGraph {
     #[allow(clippy::cast_precision_loss, reason = "a layout has at most 2^20 cells")]
     pub fn of_layout(layout: &Layout) -> Self {
         let (width, height) = (layout.width(), layout.height());
-        let mut ways = Self::default();
+        let mut graph = Self::default();
         for cell in 0..width * height {
-            ways.push([(cell % width) as f64, (cell / width) as f64]);
+            graph.push([(cell % width) as f64, (cell / width) as f64]);
         }
         for cell in 0..width * height {
             let (x, y) = (cell % width, cell / width);
             if layout.is_open_east(x, y) {
-                ways.join(cell, cell + 1, 0);
+                graph.join(cell, cell + 1, 0);
             }
             if layout.is_open_north(x, y) {
-                ways.join(cell, cell + width, 2);
+                graph.join(cell, cell + width, 2);
             }
         }
-        ways
+        graph
     }
 
     /// Adds a place without neighbours.
@@ -90,7 +90,7 @@ impl CorridorGraph {
         self.links[from].iter().filter(|to| **to != NONE).count()
     }
 
-    /// Length of the shortest way from the nearest of these places to every other one (Dijkstra); infinite where there is
+    /// Length of the shortest path from the nearest of these places to every other one (Dijkstra); infinite where there is
     /// none.
     pub fn distances_from(&self, places: &[usize]) -> Vec<f64> {
         let mut distances = vec![f64::INFINITY; self.len()];
@@ -102,7 +102,7 @@ impl CorridorGraph {
         }
         while let Some(Reverse((bits, place))) = queue.pop() {
             if bits != distances[place].to_bits() {
-                continue; // reached earlier by a shorter way
+                continue; // reached earlier by a shorter path
             }
             for step in self.steps(place) {
                 let distance = distances[place] + step.length;
@@ -115,8 +115,8 @@ impl CorridorGraph {
         distances
     }
 
-    /// The two ends of the longest way: from the first place to the farthest, and from there to the farthest. Exact where
-    /// ways do not branch and meet again; the first place on a tie. `None` when there is no place.
+    /// The two ends of the longest path: from the first place to the farthest, and from there to the farthest. Exact where
+    /// paths do not branch and meet again; the first place on a tie. `None` when there is no place.
     pub fn ends(&self) -> Option<[usize; 2]> {
         let farthest = |from: usize| {
             let distances = self.distances_from(&[from]).into_iter().enumerate();

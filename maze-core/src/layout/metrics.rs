@@ -8,7 +8,7 @@ use crate::physics::numbers::to_f64;
 /// corridors for a maze.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Metrics {
-    /// Length of the shortest way from start to goal.
+    /// Length of the shortest path from start to goal.
     pub solution_length: f64,
     /// Turns on it.
     pub n_turns: usize,
@@ -17,53 +17,54 @@ pub struct Metrics {
     /// How far the goal is from the start without walls, along x plus along y, over the length of the solution: 1 when
     /// it goes no detour.
     pub directness: f64,
-    /// How many ways are as short, at most [`super::MOST_COUNTED`].
+    /// How many paths are as short, at most [`super::MOST_COUNTED`].
     pub n_shortest: u64,
-    /// Whether no other way leads to the goal, of whatever length, but for ways that cross themselves.
+    /// Whether no other path leads to the goal, of whatever length, but for paths that cross themselves.
     pub is_unique: bool,
     /// Places other than start and goal that can be left only the way one has come.
     pub n_dead_ends: usize,
-    /// Mean way back from a dead end to the solution; 0 when there is none.
+    /// Mean distance back from a dead end to the solution; 0 when there is none.
     pub dead_end_length: f64,
-    /// Places where three ways meet.
+    /// Places where three corridors meet.
     pub n_junctions: usize,
-    /// Places where four ways meet.
+    /// Places where four corridors meet.
     pub n_crossroads: usize,
-    /// Independent loops: walls that would have to be added for there to be one way between any two places.
+    /// Independent loops: walls that would have to be added for there to be one path between any two places.
     pub n_loops: usize,
     /// After M. S. McClendon, "The complexity and difficulty of a maze", Bridges 2001, where a hallway's complexity grows with
     /// its length and with how sharply and how soon after each other its turns come, and the difficulty is the logarithm of a
     /// product over the hallways. What is computed here, exactly:
     ///
     /// - complexity of a hallway: its length D times the sum, over its turns, of θ / (π d), where θ is the angle of the turn
-    ///   (always π / 2) and 1 / d the mean of 1 / (way from the turn before) and 1 / (way to the next turn), with the
+    ///   (always π / 2) and 1 / d the mean of 1 / (distance from the turn before) and 1 / (distance to the next turn), with the
     ///   hallway's ends in the place of missing turns, so that it is as complex from either end;
     /// - difficulty: ln(1 + complexity of the solution) + the sum, over all other hallways, of ln(1 + their complexity).
     ///
-    /// The other hallways are the stretches, off the solution, between two places where ways meet or a way ends or the
+    /// The other hallways are the stretches, off the solution, between two places where corridors meet or one ends or the
     /// solution passes. 1 is added so that a straight hallway counts nothing. The scale does not matter: twice as
     /// wide a maze is as difficult. Made for mazes without loops; where there are loops, every hallway off the one shortest
-    /// way counts as a wrong one, though it may lead to the goal as well.
+    /// path counts as a wrong one, though it may lead to the goal as well.
     pub difficulty: f64,
 }
 
 impl Metrics {
-    /// `None` when no way leads from start to goal, or when they are the same place.
-    pub fn new(ways: &CorridorGraph, start: usize, goal: usize) -> Option<Self> {
-        let solution = ways.solve(start, goal).filter(|_| start != goal)?;
-        let ways_back = ways.distances_from(&solution.places);
-        let reached: Vec<usize> = (0..ways.len()).filter(|place| ways_back[*place].is_finite()).collect();
-        let mut n_with = [0; 5]; // places by how many ways lead from them
+    /// `None` when no path leads from start to goal, or when they are the same place.
+    pub fn new(graph: &CorridorGraph, start: usize, goal: usize) -> Option<Self> {
+        let solution = graph.solve(start, goal).filter(|_| start != goal)?;
+        let distances_back = graph.distances_from(&solution.places);
+        let reached: Vec<usize> =
+            (0..graph.len()).filter(|place| distances_back[*place].is_finite()).collect();
+        let mut n_with = [0; 5]; // places by how many steps lead from them
         for place in &reached {
-            n_with[ways.n_steps(*place)] += 1;
+            n_with[graph.n_steps(*place)] += 1;
         }
         let n_links = n_with.iter().enumerate().map(|(n, places)| n * places).sum::<usize>() / 2;
-        let is_dead_end = |place: usize| ways.n_steps(place) == 1 && place != start && place != goal;
+        let is_dead_end = |place: usize| graph.n_steps(place) == 1 && place != start && place != goal;
         let dead_ends: Vec<f64> =
-            reached.iter().filter(|place| is_dead_end(**place)).map(|tip| ways_back[*tip]).collect();
-        let steps = solution_steps(ways, &solution);
+            reached.iter().filter(|place| is_dead_end(**place)).map(|tip| distances_back[*tip]).collect();
+        let steps = solution_steps(graph, &solution);
         let n_turns = n_turns(&steps);
-        let [a, b] = [ways.point(start), ways.point(goal)];
+        let [a, b] = [graph.point(start), graph.point(goal)];
         Some(Self {
             solution_length: solution.length,
             n_turns,
@@ -76,7 +77,7 @@ impl Metrics {
             n_junctions: n_with[3],
             n_crossroads: n_with[4],
             n_loops: n_links + 1 - reached.len(),
-            difficulty: difficulty(ways, &solution, &steps, &reached),
+            difficulty: difficulty(graph, &solution, &steps, &reached),
         })
     }
 }
@@ -87,9 +88,9 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 /// The steps between a solution's places.
-fn solution_steps(ways: &CorridorGraph, solution: &Solution) -> Vec<Step> {
+fn solution_steps(graph: &CorridorGraph, solution: &Solution) -> Vec<Step> {
     let steps = solution.places.windows(2);
-    steps.filter_map(|pair| ways.steps(pair[0]).find(|step| step.to == pair[1])).collect()
+    steps.filter_map(|pair| graph.steps(pair[0]).find(|step| step.to == pair[1])).collect()
 }
 
 fn n_turns(steps: &[Step]) -> usize {
@@ -110,9 +111,9 @@ fn complexity(steps: &[Step]) -> f64 {
     clippy::disallowed_methods,
     reason = "a score that is shown; nothing that moves depends on its last bit"
 )]
-fn difficulty(ways: &CorridorGraph, solution: &Solution, steps: &[Step], reached: &[usize]) -> f64 {
-    let mut walked = vec![[false; 4]; ways.len()];
-    let mut is_end: Vec<bool> = (0..ways.len()).map(|place| ways.n_steps(place) != 2).collect();
+fn difficulty(graph: &CorridorGraph, solution: &Solution, steps: &[Step], reached: &[usize]) -> f64 {
+    let mut walked = vec![[false; 4]; graph.len()];
+    let mut is_end: Vec<bool> = (0..graph.len()).map(|place| graph.n_steps(place) != 2).collect();
     for place in &solution.places {
         is_end[*place] = true;
     }
@@ -123,7 +124,7 @@ fn difficulty(ways: &CorridorGraph, solution: &Solution, steps: &[Step], reached
     let mut difficulty = complexity(steps).ln_1p();
     let mut hallway = Vec::new();
     for from in reached.iter().filter(|place| is_end[**place]) {
-        for first in ways.steps(*from) {
+        for first in graph.steps(*from) {
             if walked[*from][first.direction] {
                 continue;
             }
@@ -134,7 +135,7 @@ fn difficulty(ways: &CorridorGraph, solution: &Solution, steps: &[Step], reached
                 walked[step.to][step.direction ^ 1] = true;
                 hallway.push(step);
                 place = step.to;
-                let onwards = ways.steps(place).find(|step| !walked[place][step.direction]);
+                let onwards = graph.steps(place).find(|step| !walked[place][step.direction]);
                 next = onwards.filter(|_| !is_end[place]);
             }
             difficulty += complexity(&hallway).ln_1p();
@@ -169,7 +170,7 @@ mod tests {
 
     #[test]
     fn numbers_of_a_maze_counted_by_hand() {
-        // 6 - 7 - 8      The way 0 1 4 3 6 7 8 turns four times; 2 - 5 is a dead end off cell 1, with one turn.
+        // 6 - 7 - 8      The path 0 1 4 3 6 7 8 turns four times; 2 - 5 is a dead end off cell 1, with one turn.
         // |
         // 3 - 4   5
         //     |   |
@@ -199,7 +200,7 @@ mod tests {
 
     #[test]
     fn no_way_and_no_distance_have_no_numbers() {
-        let ways = layout(3, 1, &[(0, 1)]);
-        assert!(Metrics::new(&ways, 0, 2).is_none() && Metrics::new(&ways, 1, 1).is_none());
+        let graph = layout(3, 1, &[(0, 1)]);
+        assert!(Metrics::new(&graph, 0, 2).is_none() && Metrics::new(&graph, 1, 1).is_none());
     }
 }

@@ -47,7 +47,7 @@ impl Layout {
     /// All cells walled in.
     ///
     /// # Errors
-    /// Fewer than two cells (there is no way to go) or more than 1024 x 1024.
+    /// Fewer than two cells (there is no path) or more than 1024 x 1024.
     pub fn walled(width: usize, height: usize) -> Result<Self, LayoutSizeError> {
         let fits = width <= MAX_SIDE && height <= MAX_SIDE;
         match width.checked_mul(height) {

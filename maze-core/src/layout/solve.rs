@@ -1,30 +1,30 @@
-//! The way from one place to another, and whether it is the only one.
+//! The shortest path from one place to another, and whether it is the only one.
 
 use super::corridors::{CorridorGraph, Step};
 
-/// CorridorGraph whose lengths differ by less are equally long (in the unit of the ways: cells, or corridors): far above the rounding
+/// Paths whose lengths differ by less are equally long (in the unit of the graph: cells, or corridors): far above the rounding
 /// of a sum of 2^20 lengths (1e-10), far below anything one can see.
 const SAME_LENGTH: f64 = 1.0e-6;
 
-/// Shortest ways are counted up to this number; a bare field of 30 by 30 cells has more.
+/// Shortest paths are counted up to this number; a bare field of 30 by 30 cells has more.
 pub const MOST_COUNTED: u64 = 1_000_000_000_000_000;
 
-/// A shortest way.
+/// A shortest path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// Places of the [`CorridorGraph`] from start to goal, both included.
     pub places: Vec<usize>,
     /// In the unit of the places' coordinates.
     pub length: f64,
-    /// How many ways are as short, at most [`MOST_COUNTED`]. (All ways that cross no place twice cannot be counted in any
+    /// How many paths are as short, at most [`MOST_COUNTED`]. (All paths that cross no place twice cannot be counted in any
     /// reasonable time: L. G. Valiant, "The complexity of enumeration and reliability problems", 1979.)
     pub n_shortest: u64,
-    /// Whether it is the only way of whatever length that crosses no place twice; always so in a perfect maze.
+    /// Whether it is the only path of whatever length that crosses no place twice; always so in a perfect maze.
     pub is_unique: bool,
 }
 
 impl CorridorGraph {
-    /// A shortest way between two places; of several the one that turns right, left, up, down in this order of preference,
+    /// A shortest path between two places; of several the one that turns right, left, up, down in this order of preference,
     /// seen from the goal. `None` when there is none.
     pub fn solve(&self, start: usize, goal: usize) -> Option<Solution> {
         let distances = self.distances_from(&[start]);
@@ -40,11 +40,11 @@ impl CorridorGraph {
             places.push(place);
         }
         places.reverse();
-        let is_unique = self.is_only_way(&places);
+        let is_unique = self.is_only_path(&places);
         Some(Solution { places, length, n_shortest, is_unique })
     }
 
-    /// The steps from a place to those before it on a shortest way.
+    /// The steps from a place to those before it on a shortest path.
     fn steps_back<'a>(&'a self, place: usize, distances: &'a [f64]) -> impl Iterator<Item = Step> + 'a {
         let here = distances[place];
         self.steps(place).filter(move |step| {
@@ -67,8 +67,8 @@ impl CorridorGraph {
         counts[goal]
     }
 
-    /// A way is the only one when, with its own steps taken out, no two of its places are joined.
-    fn is_only_way(&self, places: &[usize]) -> bool {
+    /// A path is the only one when, with its own steps taken out, no two of its places are joined.
+    fn is_only_path(&self, places: &[usize]) -> bool {
         let mut position = vec![usize::MAX; self.len()];
         for (n, place) in places.iter().enumerate() {
             position[*place] = n;
@@ -88,7 +88,7 @@ impl CorridorGraph {
                     continue;
                 }
                 let beside = self.steps(place).map(|step| step.to);
-                // Back to where this search left the way, or to where it has been.
+                // Back to where this search left the path, or to where it has been.
                 open.extend(beside.filter(|next| position[*next] != n && !seen[*next]));
             }
         }
@@ -112,14 +112,14 @@ mod tests {
     #[test]
     fn a_perfect_maze_has_one_way() {
         for algorithm in Algorithm::ALL {
-            let ways = CorridorGraph::of_layout(&Recipe::new(12, 9, algorithm, 5).layout().unwrap());
+            let graph = CorridorGraph::of_layout(&Recipe::new(12, 9, algorithm, 5).layout().unwrap());
             for (start, goal) in [(0, 107), (50, 3), (7, 7)] {
-                let solution = ways.solve(start, goal).unwrap();
+                let solution = graph.solve(start, goal).unwrap();
                 assert!(solution.is_unique && solution.n_shortest == 1, "{algorithm}: {solution:?}");
                 assert_eq!((solution.places[0], *solution.places.last().unwrap()), (start, goal));
                 assert_eq!(solution.length, solution.places.len() as f64 - 1.0);
                 for pair in solution.places.windows(2) {
-                    assert!(ways.steps(pair[0]).any(|step| step.to == pair[1]), "{algorithm}");
+                    assert!(graph.steps(pair[0]).any(|step| step.to == pair[1]), "{algorithm}");
                 }
             }
         }
@@ -143,7 +143,7 @@ mod tests {
         }
         let solution = CorridorGraph::of_layout(&layout).solve(0, 1).unwrap();
         assert_eq!((solution.places, solution.n_shortest, solution.is_unique), (vec![0, 1], 1, false));
-        // Halfway around both ways are as long.
+        // Halfway around both paths are as long.
         let solution = CorridorGraph::of_layout(&layout).solve(0, 5).unwrap();
         assert_eq!((solution.n_shortest, solution.is_unique), (2, false));
     }

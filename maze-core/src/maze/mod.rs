@@ -151,8 +151,8 @@ impl Maze {
     /// the middles of stretches of corridor, at most 1 long, between the ends of walls.
     pub fn metrics(&self) -> Option<Metrics> {
         let [start, goal] = self.ends()?;
-        let (ways, [start, goal]) = self.route.space.corridors(start, goal)?;
-        Metrics::new(&ways, start, goal)
+        let (graph, [start, goal]) = self.route.space.corridors(start, goal)?;
+        Metrics::new(&graph, start, goal)
     }
 
     fn ends(&self) -> Option<[usize; 2]> {

@@ -58,7 +58,7 @@ pub struct FaceNote {
     pub is_unmet: bool,
 }
 
-/// What was found in a file on the way to a maze; for a generated maze it tells nothing new.
+/// What was found in a file on the way to a maze; for a generated maze it holds the defaults.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportReport {

@@ -8,7 +8,7 @@ use std::fmt::{Display, Formatter};
 /// Most separate regions with openings that are searched for the farthest pair; a maze has one.
 const MAX_REGIONS: usize = 16;
 
-/// How far from a wished start or goal the ball may be put (units): where a corridor is several blocks wide, the ball's
+/// How far from a requested start or goal the ball may be put (units): where a corridor is several blocks wide, the ball's
 /// centre does not get to the middle of the blocks beside a wall.
 const MAX_SHIFT: f64 = 0.5;
 
@@ -48,7 +48,7 @@ pub(crate) struct Ends {
 }
 
 /// Where start and goal should be (units); what is exact goes before what is near.
-pub(crate) struct Wishes {
+pub(crate) struct Requested {
     /// There and nowhere else.
     pub(crate) exact: [Option<Vector2<f64>>; 2],
     /// There, or at the nearest place where the ball fits.
@@ -72,12 +72,12 @@ impl Ends {
         space: &ConfigurationSpace,
         openings: &[Plane],
         radius: f64,
-        wishes: &Wishes,
+        requested: &Requested,
     ) -> Result<Self, RouteError> {
         let mut ends: [Option<(usize, Vector2<f64>)>; 2] = [None; 2];
         for end in Endpoint::BOTH {
             let index = end as usize;
-            ends[index] = match (wishes.exact[index], wishes.near[index]) {
+            ends[index] = match (requested.exact[index], requested.near[index]) {
                 (Some(exact), _) => Some((space.cell_at(exact).ok_or(RouteError::NotFree(exact))?, exact)),
                 (None, Some(near)) => {
                     Some(space.nearest(near, MAX_SHIFT).ok_or(RouteError::NoRoomNear(end))?)
@@ -140,7 +140,7 @@ impl Ends {
         let mut seen = vec![false; doors.len()];
         for _ in 0..MAX_REGIONS {
             let Some(first) = seen.iter().position(|seen| !seen) else { break };
-            // Two sweeps: the farthest from anywhere is one end of the longest way (exact where ways do not branch).
+            // Two sweeps: the farthest from anywhere is one end of the longest path (exact where paths do not branch).
             // Only one set of distances at a time: they are the largest thing there is.
             let one = {
                 let from_first = space.distances_from(doors[first].1);
@@ -213,7 +213,7 @@ fn without_pockets(
     kept.map(|(door, _)| door).collect()
 }
 
-/// Distance and index of the farthest door that has a way, the first one on a tie.
+/// Distance and index of the farthest door that has a path, the first one on a tie.
 fn farthest_door(distances: &Distances, doors: &[(Vector2<f64>, usize)]) -> (f64, usize) {
     let reached = doors.iter().enumerate().map(|(index, (_, cell))| (distances.to(*cell), index));
     reached

@@ -2,7 +2,7 @@
 //!
 //! The sum is with a square and not with a disc, so a gap that the ball could only take diagonally counts as closed.
 
-use crate::assembly::section::Section;
+use crate::assembly::occupancy::Occupancy;
 use crate::layout::CorridorGraph;
 use nalgebra::Vector2;
 use std::cmp::Reverse;
@@ -47,7 +47,7 @@ fn split(coordinates: &[f64]) -> Vec<f64> {
 }
 
 impl ConfigurationSpace {
-    pub(crate) fn new(section: &Section, radius: f64) -> Self {
+    pub(crate) fn new(plan: &Occupancy, radius: f64) -> Self {
         let grown = |values: &[f64]| {
             let mut grown: Vec<f64> =
                 values.iter().flat_map(|value| [value - radius, value + radius]).collect();
@@ -56,8 +56,8 @@ impl ConfigurationSpace {
             // The outermost ones lie outside the board; between the others nothing is left when the ball is too large.
             split(grown.get(1..grown.len().saturating_sub(1)).unwrap_or_default())
         };
-        let (xs, ys) = (grown(&section.xs), grown(&section.ys));
-        let n_solid = SolidCounts::new(section);
+        let (xs, ys) = (grown(&plan.xs), grown(&plan.ys));
+        let n_solid = SolidCounts::new(plan);
         // The plan's cells that a square of that radius around the middle of [low, high] overlaps.
         let covered = |coordinates: &[f64], low: f64, high: f64| {
             let middle = (low + high) / 2.0;
@@ -65,8 +65,8 @@ impl ConfigurationSpace {
             let last = coordinates.partition_point(|value| *value < middle + radius);
             (first > 0 && last < coordinates.len()).then(|| (first - 1, last))
         };
-        let columns: Vec<_> = xs.windows(2).map(|pair| covered(&section.xs, pair[0], pair[1])).collect();
-        let rows: Vec<_> = ys.windows(2).map(|pair| covered(&section.ys, pair[0], pair[1])).collect();
+        let columns: Vec<_> = xs.windows(2).map(|pair| covered(&plan.xs, pair[0], pair[1])).collect();
+        let rows: Vec<_> = ys.windows(2).map(|pair| covered(&plan.ys, pair[0], pair[1])).collect();
         let mut free = Vec::with_capacity(rows.len() * columns.len());
         for row in rows {
             free.extend(columns.iter().map(|column| match (*column, row) {
@@ -250,13 +250,13 @@ struct SolidCounts {
 }
 
 impl SolidCounts {
-    fn new(section: &Section) -> Self {
-        let [n_x, n_y] = section.n_cells();
+    fn new(plan: &Occupancy) -> Self {
+        let [n_x, n_y] = plan.n_cells();
         let mut sums = vec![0; (n_x + 1) * (n_y + 1)];
         for j in 0..n_y {
             let mut in_row = 0;
             for i in 0..n_x {
-                in_row += u32::from(section.is_solid(i, j));
+                in_row += u32::from(plan.is_solid(i, j));
                 sums[(j + 1) * (n_x + 1) + i + 1] = sums[j * (n_x + 1) + i + 1] + in_row;
             }
         }

@@ -12,7 +12,7 @@ pub fn plane_normal(world_from_maze: &UnitQuaternion<f64>) -> Vector3<f64> {
     world_from_maze * Vector3::z()
 }
 
-/// Step 2: the part of gravity that lies in the plane, P = G - (G . n) n, in world coordinates.
+/// Step 2: the component of gravity in the plane, P = G - (G . n) n, in world coordinates.
 pub fn in_plane(world_gravity: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
     world_gravity - normal * world_gravity.dot(&normal)
 }

@@ -26,7 +26,7 @@ pub(crate) fn falls_through_zero(gap: f64, speed: f64, acceleration: f64) -> Opt
     }
     if acceleration < 0.0 {
         let time = (speed + fall) / -acceleration;
-        // At rest on zero and pressed, or risen from zero or below and come back; not a touch from below.
+        // At rest on zero and pressed, or risen from zero or below and fallen back; not a touch from below.
         return (0.0 < fall || gap == 0.0).then_some(time);
     }
     None
@@ -113,7 +113,7 @@ mod tests {
             ("at rest and pressed", (0.0, 0.0, -2.0), Some(0.0)),
             ("at rest and pulled off", (0.0, 0.0, 2.0), None),
             ("touching and closing", (0.0, -1.0, 5.0), Some(0.0)),
-            ("touching, thrown up, comes back", (0.0, 3.0, -2.0), Some(3.0)),
+            ("touching, thrown up, falls back", (0.0, 3.0, -2.0), Some(3.0)),
             ("grazing from above", (1.0, -2.0, 2.0), None),
             ("turns before it", (1.1, -2.0, 2.0), None),
             ("falls from rest", (4.0, 0.0, -2.0), Some(2.0)),

@@ -398,7 +398,7 @@ pub(crate) enum Visit {
     Group { facing: Facing, offsets: [f64; 2] },
     /// A row, and the range along it within which the circle can touch it.
     Row { offset: f64, window: [f64; 2] },
-    /// A plane that is handed to the impact test.
+    /// A plane that is tested for an impact.
     Plane(Plane),
 }
 

@@ -35,7 +35,7 @@ pub struct Tick {
 /// One hit, as the engine saw it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// From the start of the tick (s). An engine that moves in steps tells the end of the step.
+    /// From the start of the tick (s). An engine that moves in steps gives the end of the step.
     pub time_s: f64,
     /// The point of the wall that was touched.
     pub point: Vector2<f64>,

@@ -28,7 +28,7 @@ pub struct RowVisit {
     pub window: [f64; 2],
     /// The bisection for the first plane that does not end below the window, by index within the row.
     pub probes: Vec<Probe>,
-    /// The planes that were handed to the impact test.
+    /// The planes that were tested for an impact.
     pub planes: Vec<Plane>,
 }
 

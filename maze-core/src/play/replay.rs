@@ -146,7 +146,7 @@ pub enum ReplayError {
     /// A length or text that no recording has.
     #[error("the recording's {what} is damaged")]
     Damaged {
-        /// Which part.
+        /// Which field.
         what: &'static str,
     },
 }

@@ -16,13 +16,18 @@ pub(crate) struct Scene {
     pub(crate) restitution: f64,
     pub(crate) position: [f64; 2],
     pub(crate) velocity: [f64; 2],
-    pub(crate) pull: [f64; 2],
+    pub(crate) acceleration: [f64; 2],
     pub(crate) tick_s: f64,
 }
 
 impl Scene {
-    pub(crate) fn new(planes: Vec<Plane>, position: [f64; 2], velocity: [f64; 2], pull: [f64; 2]) -> Self {
-        Self { planes, radius: R, restitution: 0.8, position, velocity, pull, tick_s: 0.03 }
+    pub(crate) fn new(
+        planes: Vec<Plane>,
+        position: [f64; 2],
+        velocity: [f64; 2],
+        acceleration: [f64; 2],
+    ) -> Self {
+        Self { planes, radius: R, restitution: 0.8, position, velocity, acceleration, tick_s: 0.03 }
     }
 
     pub(crate) fn engine(&self) -> Continuous {
@@ -35,18 +40,18 @@ impl Scene {
 
     /// The ball after a time, and all ticks; never in a wall, never richer, never corrected, no time dropped.
     pub(crate) fn run(&self, time_s: f64) -> (Ball, Vec<Tick>) {
-        let (mut engine, pull) = (self.engine(), Vector2::from(self.pull));
-        let energy = |ball: Ball| ball.velocity.norm_squared() / 2.0 - pull.dot(&ball.position);
+        let (mut engine, acceleration) = (self.engine(), Vector2::from(self.acceleration));
+        let energy = |ball: Ball| ball.velocity.norm_squared() / 2.0 - acceleration.dot(&ball.position);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let n_ticks = (time_s / self.tick_s).round() as u32;
         let ticks = (0..n_ticks).map(|n| {
             let before = engine.ball();
-            let tick = engine.tick(pull).unwrap();
+            let tick = engine.tick(acceleration).unwrap();
             let after = engine.ball();
             let deep = depth(&self.planes, after.position, self.radius);
             assert!(deep < 1.0e-9 * self.radius, "tick {n}: {deep} deep, {before:?} -> {after:?}");
             let gain = energy(after) - energy(before);
-            let scale = before.velocity.norm_squared() + pull.norm() * self.radius;
+            let scale = before.velocity.norm_squared() + acceleration.norm() * self.radius;
             assert!(gain < 1.0e-9 * scale, "tick {n}: gains {gain}, {before:?} -> {after:?}");
             assert_eq!((tick.dropped_s, tick.corrected_overlap), (0.0, 0.0), "tick {n}: {before:?} {tick:?}");
             tick

@@ -15,7 +15,7 @@ pub(crate) const HALF: f64 = 4.0;
 
 /// How the acceleration changes from tick to tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Pull {
+pub(crate) enum Acceleration {
     /// Another one in every tick.
     Random,
     /// The same for so many ticks, then its opposite.
@@ -38,7 +38,7 @@ pub(crate) struct Scene {
     pub(crate) spec: BallSpec,
     pub(crate) ball: Ball,
     pub(crate) tick_s: f64,
-    pub(crate) pull: Pull,
+    pub(crate) acceleration: Acceleration,
     /// Of the acceleration (units/s²).
     pub(crate) strength: f64,
 }
@@ -291,44 +291,46 @@ impl Scene {
             resistance: if draw.chance(8.0) { draw.between(0.0, 1.0) } else { 0.0 },
         };
         let held = draw.pick(&[3, 30, 300]);
-        let pull = draw.pick(&[
-            Pull::Random,
-            Pull::Flips(held),
-            Pull::Turns,
-            Pull::Axes(held),
-            Pull::Steady(held),
-            Pull::Steady(held),
-            Pull::None,
+        let acceleration = draw.pick(&[
+            Acceleration::Random,
+            Acceleration::Flips(held),
+            Acceleration::Turns,
+            Acceleration::Axes(held),
+            Acceleration::Steady(held),
+            Acceleration::Steady(held),
+            Acceleration::None,
         ]);
         let strength = draw.pick(&[1.0e-12, 0.3, 3.0, 3.0, 3.0, 9.0, 100.0, 1.0e4, 1.0e6]);
         let tick_s = draw.pick(&[0.03, 0.03, 0.001, 0.1]);
-        Some(Self { planes, middle, spec, ball, tick_s, pull, strength })
+        Some(Self { planes, middle, spec, ball, tick_s, acceleration, strength })
     }
 
     /// The accelerations of the ticks, for ever.
-    pub(crate) fn pulls(&self, seed: u64) -> impl Iterator<Item = Vector2<f64>> {
-        let (mut noise, mut pull) = (Noise(!seed), Vector2::zeros());
-        let (mode, strength) = (self.pull, self.strength);
+    pub(crate) fn accelerations(&self, seed: u64) -> impl Iterator<Item = Vector2<f64>> {
+        let (mut noise, mut acceleration) = (Noise(!seed), Vector2::zeros());
+        let (mode, strength) = (self.acceleration, self.strength);
         (0_u32..).map(move |n| {
             let is_new = |held: u32| n % held == 0;
             match mode {
-                Pull::Random => pull = noise.vector() * strength,
-                Pull::Flips(held) if is_new(held) => {
-                    pull = if n % (8 * held) == 0 { noise.vector() * strength } else { -pull };
+                Acceleration::Random => acceleration = noise.vector() * strength,
+                Acceleration::Flips(held) if is_new(held) => {
+                    acceleration =
+                        if n % (8 * held) == 0 { noise.vector() * strength } else { -acceleration };
                 }
-                Pull::Turns => {
-                    let first = if n == 0 { noise.vector() * strength } else { pull };
-                    pull =
+                Acceleration::Turns => {
+                    let first = if n == 0 { noise.vector() * strength } else { acceleration };
+                    acceleration =
                         Vector2::new(0.995 * first.x - 0.0998 * first.y, 0.0998 * first.x + 0.995 * first.y);
                 }
-                Pull::Axes(held) if is_new(held) => {
+                Acceleration::Axes(held) if is_new(held) => {
                     let size = noise.next() * strength;
-                    pull = if noise.next() < 0.0 { Vector2::new(size, 0.0) } else { Vector2::new(0.0, size) };
+                    acceleration =
+                        if noise.next() < 0.0 { Vector2::new(size, 0.0) } else { Vector2::new(0.0, size) };
                 }
-                Pull::Steady(held) if is_new(held) => pull = noise.vector() * strength,
+                Acceleration::Steady(held) if is_new(held) => acceleration = noise.vector() * strength,
                 _ => {}
             }
-            pull
+            acceleration
         })
     }
 }

@@ -24,7 +24,7 @@ struct Case {
     planes: Vec<maze_core::Plane>,
     spec: maze_core::BallSpec,
     ball: Ball,
-    pull: Vector2<f64>,
+    acceleration: Vector2<f64>,
     /// Largest coordinate and speed there are.
     scale: [f64; 2],
     horizon_s: f64,
@@ -50,10 +50,10 @@ struct Count {
 impl Case {
     fn new(seed: u64, n_crossings: f64) -> Option<Self> {
         let scene = Scene::new(seed)?;
-        let pull = scene.pulls(seed).next()?;
+        let acceleration = scene.accelerations(seed).next()?;
         let (ball, mut spec) = (scene.ball, scene.spec);
         spec.resistance = 0.0;
-        let (speed, strength) = (ball.velocity.norm(), pull.norm() * spec.rolling);
+        let (speed, strength) = (ball.velocity.norm(), acceleration.norm() * spec.rolling);
         // Time to cross the room so often.
         let horizon_s = n_crossings * (8.0 / speed).min((16.0 / strength).sqrt());
         let coordinate = scene.middle.abs().max() + 4.0;
@@ -62,7 +62,7 @@ impl Case {
             planes: scene.planes,
             spec,
             ball,
-            pull,
+            acceleration,
             scale,
             horizon_s,
         })
@@ -72,7 +72,7 @@ impl Case {
     /// corner multiplies an error by about 2 (1 + e) v / (r cos phi) times the time that follows.
     fn compare(&self, seed: u64, n_hits: usize, n_ticks: u32, count: &mut Count) {
         let world = World::new(&self.planes, &self.spec);
-        let mut planned = Reference::new(&world, self.ball, self.pull.into());
+        let mut planned = Reference::new(&world, self.ball, self.acceleration.into());
         planned.max_hits = n_hits;
         planned.advance(&big(self.horizon_s));
         let Some(last_s) = planned.hits.get(n_hits - 1).map(|last| last.time_s.f64()) else {
@@ -101,7 +101,7 @@ impl Case {
                 position: self.ball.position + way * (NUDGE * self.scale[0]),
                 velocity: self.ball.velocity + Vector2::new(-way.y, way.x) * (NUDGE * self.scale[1]),
             };
-            let mut other = Reference::new(&world, nudged, self.pull.into());
+            let mut other = Reference::new(&world, nudged, self.acceleration.into());
             other.advance(&until_s);
             if features(&other) != met {
                 count.ambiguous += 1;
@@ -119,7 +119,7 @@ impl Case {
         let planes = Arc::new(SortedPlanes::new(self.planes.iter().copied()).unwrap());
         let mut engine = Continuous::new(planes, self.spec, self.ball, tick_s).unwrap();
         for _ in 0..n_ticks {
-            let tick = engine.tick(self.pull).unwrap();
+            let tick = engine.tick(self.acceleration).unwrap();
             assert_eq!(
                 (tick.dropped_s, tick.recovered, tick.corrected_overlap),
                 (0.0, false, 0.0),

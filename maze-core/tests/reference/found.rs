@@ -10,16 +10,16 @@ use std::sync::Arc;
 #[test]
 fn a_roll_that_turns_back_within_a_tick_keeps_its_time() {
     // Around the free end of a wall without thickness, up to where it turns, and back, without any hit from tick 26 on.
-    let (r, tick_s, pull) = (0.35, 0.0137, [-3.6, -1.2]);
+    let (r, tick_s, acceleration) = (0.35, 0.0137, [-3.6, -1.2]);
     let wall = [Facing::PlusY, Facing::MinusY].map(|facing| face(facing, 0.0, -20.0 * r, 0.0));
     let spec = BallSpec { radius: Radius::new(r).unwrap(), restitution: 0.0, ..BallSpec::default() };
     let speed = 0.9 * (2.0 * r * 4.0).sqrt();
     let ball = Ball { position: [-0.5 * r, r].into(), velocity: [speed, 0.0].into() };
     let world = World::new(&wall, &spec);
-    let mut reference = Reference::new(&world, ball, pull);
+    let mut reference = Reference::new(&world, ball, acceleration);
     let mut engine = Continuous::new(Arc::new(SortedPlanes::new(wall).unwrap()), spec, ball, tick_s).unwrap();
     for n in 1..=40 {
-        engine.tick(pull.into()).unwrap();
+        engine.tick(acceleration.into()).unwrap();
         reference.advance(&(big(tick_s) * big(f64::from(n))));
         let (ball, truth) = (engine.ball(), reference.ball());
         let apart = (ball.velocity - truth.velocity).norm();
@@ -45,7 +45,7 @@ fn a_wedge_of_a_millionth_drops_no_time() {
         for wedge in [Wedge::points(r, angle), Wedge::floor_and_corner(r, angle)] {
             let mut engine = wedge.engine(r, 0.8);
             for n in 0..4 {
-                let tick = engine.tick(wedge.pull.into()).unwrap();
+                let tick = engine.tick(wedge.acceleration.into()).unwrap();
                 assert_eq!(tick.dropped_s, 0.0, "r {r}, tick {n}: {tick:?}");
             }
         }
@@ -66,7 +66,7 @@ fn a_gap_narrower_by_a_part_in_1e12_is_not_passed_after_bounces_from_side_to_sid
         let wedge = Wedge::narrow(r, 1.0e-12);
         let mut engine = wedge.engine(r, 0.8);
         for n in 0..100 {
-            engine.tick(wedge.pull.into()).unwrap();
+            engine.tick(wedge.acceleration.into()).unwrap();
             assert!(0.0 < engine.ball().position.y, "r {r}, tick {n}: {:?}", engine.ball());
         }
     }

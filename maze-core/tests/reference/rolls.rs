@@ -19,7 +19,7 @@ pub(crate) struct Course {
     start: [f64; 2],
     speed: [f64; 2],
     /// Directions of the acceleration: one, and the one that follows it.
-    pulls: [[f64; 2]; 2],
+    accelerations: [[f64; 2]; 2],
 }
 
 /// The upper and the right side of a block.
@@ -51,8 +51,9 @@ fn down(height: f64) -> Vec<Plane> {
 }
 
 fn courses() -> Vec<Course> {
-    let course = |name, planes, start, speed, pulls| Course { name, planes, start, speed, pulls };
-    let still = |pull| [pull, pull];
+    let course =
+        |name, planes, start, speed, accelerations| Course { name, planes, start, speed, accelerations };
+    let still = |acceleration| [acceleration, acceleration];
     vec![
         course("edge", edge(), [-1.0, 1.0], [0.3, 0.0], still([0.0, -1.0])),
         course("edge, pushed", edge(), [-0.5, 1.0], [0.0, 0.0], still([0.1, -1.0])),
@@ -86,8 +87,13 @@ fn courses() -> Vec<Course> {
 
 /// Courses on which the ball turns back while it rolls around a point.
 pub(crate) fn turning_courses() -> [Course; 3] {
-    let course =
-        |name, planes, start, speed, pull| Course { name, planes, start, speed, pulls: [pull, pull] };
+    let course = |name, planes, start, speed, acceleration| Course {
+        name,
+        planes,
+        start,
+        speed,
+        accelerations: [acceleration, acceleration],
+    };
     [
         course("free end and back", sheet(), [-0.5, 1.0], [0.9, 0.0], [-0.9, -0.3]),
         course("not up a step", step(0.5), [-2.0, 1.0], [0.5, 0.0], [0.05, -1.0]),
@@ -112,23 +118,23 @@ impl Course {
             position: self.start.map(|x| x * r).into(),
             velocity: self.speed.map(|v| v * speed).into(),
         };
-        let pulls = self.pulls.map(|pull| pull.map(|a| a * strength));
+        let accelerations = self.accelerations.map(|acceleration| acceleration.map(|a| a * strength));
         let unit_s = (r / (strength * rolling)).sqrt();
         let world = World::new(&planes, &spec);
         for tick_s in TICKS_S {
             let n_ticks = [3.0, 5.0].map(|time| (time * unit_s / tick_s).ceil() as u32);
-            let mut reference = Reference::new(&world, ball, pulls[0]);
+            let mut reference = Reference::new(&world, ball, accelerations[0]);
             let sorted = Arc::new(SortedPlanes::new(planes.iter().copied()).unwrap());
             let mut engine = Continuous::new(sorted, spec, ball, tick_s).unwrap();
             let mut n = 0;
-            for (pull, n_ticks) in pulls.into_iter().zip(n_ticks) {
-                reference.pull(pull);
+            for (acceleration, n_ticks) in accelerations.into_iter().zip(n_ticks) {
+                reference.acceleration(acceleration);
                 // Compared at quarters of it.
                 for quarter in 1..=4 {
                     let until = n + (n_ticks * quarter).div_ceil(4) - (n_ticks * (quarter - 1)).div_ceil(4);
                     let mut dropped = 0.0;
                     for _ in n..until {
-                        let tick = engine.tick(pull.into()).unwrap();
+                        let tick = engine.tick(acceleration.into()).unwrap();
                         dropped += tick.dropped_s + tick.corrected_overlap;
                     }
                     n = until;

@@ -15,8 +15,8 @@ pub(crate) struct Series {
 
 impl Series {
     pub(crate) fn new(n: &Pair, turn: &Big, a: &Pair, r: &Big) -> Self {
-        let pull = (a[0].f64().powi(2) + a[1].f64().powi(2)).sqrt();
-        let rate = turn.f64().abs().max((pull / r.f64()).sqrt()).max(1.0e-3);
+        let acceleration = (a[0].f64().powi(2) + a[1].f64().powi(2)).sqrt();
+        let rate = turn.f64().abs().max((acceleration / r.f64()).sqrt()).max(1.0e-3);
         let step_s = big(0.125 / rate);
         let (mut x, mut y, mut w) = (vec![n[0].clone()], vec![n[1].clone()], vec![turn.clone()]);
         let (ax, ay) = (&a[0] / r, &a[1] / r);

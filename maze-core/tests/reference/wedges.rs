@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub(crate) struct Wedge {
     pub(crate) planes: Vec<Plane>,
     pub(crate) start: [f64; 2],
-    pub(crate) pull: [f64; 2],
+    pub(crate) acceleration: [f64; 2],
     pub(crate) rest: [f64; 2],
 }
 
@@ -41,7 +41,7 @@ impl Wedge {
         Self {
             planes: slit(c),
             start: [0.1 * c, rest + 0.5 * barrier],
-            pull: [0.0, -PULL],
+            acceleration: [0.0, -PULL],
             rest: [0.0, rest],
         }
     }
@@ -58,22 +58,22 @@ impl Wedge {
         }
         // Into the wedge along the middle of the two directions in which the contacts press.
         let (sin, cos) = (angle / 2.0).sin_cos();
-        let pull = if h < r { [PULL * sin, -PULL * cos] } else { [PULL * 0.7, -PULL * 0.3] };
+        let acceleration = if h < r { [PULL * sin, -PULL * cos] } else { [PULL * 0.7, -PULL * 0.3] };
         let (back, up) = if h < r { (0.1 * out, 0.1 * h * 0.3) } else { (1.5 * r, 0.2 * r) };
-        Self { planes, start: [-out - back, r + up], pull, rest: [-out, r] }
+        Self { planes, start: [-out - back, r + up], acceleration, rest: [-out, r] }
     }
 
     /// A concave corner.
     fn faces(r: f64) -> Self {
         let planes = vec![face(Facing::PlusY, 0.0, -9.0, 0.0), face(Facing::MinusX, 0.0, 0.0, 9.0)];
-        Self { planes, start: [-2.0 * r, 1.7 * r], pull: [2.0, -3.0], rest: [-r, r] }
+        Self { planes, start: [-2.0 * r, 1.7 * r], acceleration: [2.0, -3.0], rest: [-r, r] }
     }
 
     /// Two points whose distance is less than the diameter by a part of it.
     pub(crate) fn narrow(r: f64, part: f64) -> Self {
         let rest = r * (part * (2.0 - part)).sqrt();
         let planes = slit(r * (1.0 - part));
-        Self { planes, start: [0.02 * r, rest + 0.2 * r], pull: [0.0, -PULL], rest: [0.0, rest] }
+        Self { planes, start: [0.02 * r, rest + 0.2 * r], acceleration: [0.0, -PULL], rest: [0.0, rest] }
     }
 
     pub(crate) fn engine(&self, r: f64, e: f64) -> Continuous {
@@ -95,7 +95,7 @@ impl Wedge {
         let (mut n_ticks, mut n_hits, mut before) = (0, 0, None);
         // At rest: twice the same.
         while before.replace(engine.ball()) != Some(engine.ball()) {
-            let tick = engine.tick(self.pull.into()).unwrap();
+            let tick = engine.tick(self.acceleration.into()).unwrap();
             assert_eq!(
                 (tick.dropped_s, tick.corrected_overlap, tick.recovered),
                 (0.0, 0.0, false),
@@ -155,10 +155,10 @@ fn rocking_in_a_shallow_wedge_is_that_of_the_reference() {
         let wedge = Wedge::points(r, angle);
         let mut engine = wedge.engine(r, 0.0);
         let world = World::new(&wedge.planes, engine.spec());
-        let mut reference = Reference::new(&world, engine.ball(), wedge.pull);
+        let mut reference = Reference::new(&world, engine.ball(), wedge.acceleration);
         let n_ticks = (20.0 * (r / PULL).sqrt() / TICK_S) as u32 + 1;
         for n in 1..=n_ticks {
-            let tick = engine.tick(wedge.pull.into()).unwrap();
+            let tick = engine.tick(wedge.acceleration.into()).unwrap();
             assert_eq!((tick.dropped_s, tick.corrected_overlap), (0.0, 0.0));
             if n % 10 == 0 || n == n_ticks {
                 reference.advance(&(big(TICK_S) * big(f64::from(n))));

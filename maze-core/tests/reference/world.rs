@@ -142,7 +142,7 @@ impl<'a> Reference<'a> {
     }
 
     /// Another acceleration from now on.
-    pub(crate) fn pull(&mut self, a: [f64; 2]) {
+    pub(crate) fn acceleration(&mut self, a: [f64; 2]) {
         self.a = pair(a).map(|part| part * &self.world.rolling);
         self.is_at_rest = false;
     }
@@ -184,12 +184,12 @@ impl<'a> Reference<'a> {
 
     /// Acceleration along the normal, relative to what keeps the ball on the feature: it presses where it is negative.
     pub(crate) fn press(&self, contact: &Contact) -> Big {
-        let pull = dot(&self.a, &contact.n);
+        let acceleration = dot(&self.a, &contact.n);
         match contact.feature {
-            Feature::Face(_) => pull,
+            Feature::Face(_) => acceleration,
             Feature::Point(_) => {
                 let across = dot(&self.v, &[-&contact.n[1], contact.n[0].clone()]);
-                pull + &across * &across / &self.world.r
+                acceleration + &across * &across / &self.world.r
             }
         }
     }
@@ -265,7 +265,7 @@ impl<'a> Reference<'a> {
         Mode::Along(active.iter().find(is_free).map_or(first.feature, |one| one.feature))
     }
 
-    /// Whether two contacts can carry the ball: a = -(alpha n1 + beta n2) with neither negative.
+    /// Whether two contacts can hold the ball: a = -(alpha n1 + beta n2) with neither negative.
     fn is_held(&self, n1: &Pair, n2: &Pair) -> bool {
         let cross = |a: &Pair, b: &Pair| &a[0] * &b[1] - &a[1] * &b[0];
         let area = cross(n1, n2);

@@ -13,7 +13,7 @@ impl Ball {
         let is_plain = !shared.quality.wants_srgb_target();
         let pipeline = shared.pipeline(&PassPipeline {
             constants: &[
-                ("sun_looks", shared.detail.sun_looks.into()),
+                ("pcf_taps", shared.detail.pcf_taps.into()),
                 ("is_plain", f64::from(u8::from(is_plain))),
             ],
             groups: &[Some(shared.frame_layout), Some(shared.light_layout), Some(&materials.layout)],

@@ -4,7 +4,7 @@ use wgpu::util::DeviceExt;
 
 use super::Shared;
 use crate::Gpu;
-use crate::texture::{Bytes, Mipmapped, TextureSet, relief};
+use crate::texture::{Bytes, Mipmapped, TextureSet, normal_map};
 
 /// Bricks: the picture shows one unit of wall, some eight courses, so that a brick is small beside the ball.
 const WALL_REPEATS_PER_UNIT: f32 = 1.0;
@@ -81,15 +81,15 @@ impl Materials {
         let bytes = if computes_in_light { Bytes::Decoded } else { Bytes::Srgb };
         let load = |name, image| {
             let colour = Mipmapped::new(gpu, name, image, bytes);
-            // Where light is computed at corners a relief is of no use.
-            let relief =
-                computes_in_light.then(|| Mipmapped::new(gpu, name, &relief(image), Bytes::Linear).view);
-            (colour, relief)
+            // Where light is computed at corners a normal map is of no use.
+            let normal_map =
+                computes_in_light.then(|| Mipmapped::new(gpu, name, &normal_map(image), Bytes::Linear).view);
+            (colour, normal_map)
         };
         let wall = load("wall", &textures.wall);
         let floor = load("floor", &textures.floor);
         let top = load("top", &textures.top);
-        let group = |(texture, relief): &(Mipmapped, Option<wgpu::TextureView>),
+        let group = |(texture, normal_map): &(Mipmapped, Option<wgpu::TextureView>),
                      repeats_per_unit,
                      roughness,
                      reflectance| {
@@ -114,7 +114,7 @@ impl Materials {
                     wgpu::BindGroupEntry {
                         binding: 3,
                         resource: wgpu::BindingResource::TextureView(
-                            relief.as_ref().unwrap_or(&texture.view),
+                            normal_map.as_ref().unwrap_or(&texture.view),
                         ),
                     },
                 ],

@@ -21,7 +21,7 @@ impl Maze {
             shared.pipeline(&PassPipeline {
                 constants: &[
                     ("kind", kind),
-                    ("sun_looks", shared.detail.sun_looks.into()),
+                    ("pcf_taps", shared.detail.pcf_taps.into()),
                     ("wall_bias", wall_bias),
                 ],
                 groups: &[Some(shared.frame_layout), Some(shared.light_layout), Some(&materials.layout)],

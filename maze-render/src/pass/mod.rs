@@ -18,7 +18,7 @@ use crate::light::{self, Bounds};
 use crate::quality::{Detail, Quality};
 use crate::scene::{Marker, Scene};
 
-/// Depth buffer of the picture and of the sun's map.
+/// Depth buffer of the picture and of the shadow map.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// Where the sky is brightest, in the world: leaned towards the player, so that the wall sides in view, which the
@@ -34,7 +34,7 @@ pub struct Frame {
     pub clip_from_maze: [[f32; 4]; 4],
     /// And back.
     pub maze_from_clip: [[f32; 4]; 4],
-    /// To the sun's map.
+    /// To the shadow map.
     pub sun_clip_from_maze: [[f32; 4]; 4],
     /// Position; two over the picture's width.
     pub eye: [f32; 4],
@@ -56,7 +56,7 @@ pub struct Frame {
     pub board: [f32; 4],
     /// Occlusion map from maze x, y: scale; offset.
     pub occlusion: [f32; 4],
-    /// Blur of the sun's map in its own coordinates x, y; distance to move off a surface before looking; width
+    /// Blur of the shadow map in its own coordinates x, y; distance to move off a surface before sampling; width
     /// of a soft edge in the floor's light.
     pub shadow: [f32; 4],
     /// The floor's mean colour, linear; unused.
@@ -119,7 +119,7 @@ pub(crate) struct Shared<'a> {
     pub(crate) device: &'a wgpu::Device,
     /// Group 0: [`Frame`].
     pub(crate) frame_layout: &'a wgpu::BindGroupLayout,
-    /// Group 1: the sun's map and the occlusion map.
+    /// Group 1: the shadow map and the occlusion map.
     pub(crate) light_layout: &'a wgpu::BindGroupLayout,
     pub(crate) target_format: wgpu::TextureFormat,
     pub(crate) n_samples: u32,

@@ -1,4 +1,4 @@
-//! The sun's map: how far its light reaches, seen from the sun, so that walls throw shadows.
+//! The shadow map: how far its light reaches, seen from the sun, so that walls throw shadows.
 
 use nalgebra::Matrix4;
 
@@ -12,7 +12,7 @@ const SOFTNESS: f32 = 0.026;
 /// Least softness in texels: hides the map's grid.
 const MIN_SOFTNESS_TEXELS: f32 = 1.1;
 
-/// How far to step off a lit surface before looking at the map, in texels of the map: more than the slope of any
+/// How far to step off a lit surface before sampling the map, in texels of the map: more than the slope of any
 /// surface in view makes up within the blur.
 const STEP_OFF_TEXELS: f32 = 2.0;
 
@@ -36,7 +36,7 @@ impl Shadow {
         let device = shared.device;
         let side = shared.detail.sun_map_side;
         let map = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("sun map"),
+            label: Some("shadow map"),
             size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
@@ -47,12 +47,12 @@ impl Shadow {
         });
         let module = shader::SHADOW.module(device);
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("sun map"),
+            label: Some("shadow map"),
             bind_group_layouts: &[Some(shared.frame_layout)],
             immediate_size: 0,
         });
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("sun map"),
+            label: Some("shadow map"),
             layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: &module,
@@ -79,7 +79,7 @@ impl Shadow {
     /// Draws walls and tops; the floor is below everything it could shade.
     pub(crate) fn draw(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup, mesh: &Mesh) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("sun map"),
+            label: Some("shadow map"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.map,
                 depth_ops: Some(wgpu::Operations {

@@ -34,7 +34,7 @@ fn table_light(screen: vec2<f32>) -> vec3<f32> {
     let pool = exp(-1.1 * dot(screen - vec2(-0.25, 0.3), screen - vec2(-0.25, 0.3)));
     var light = mix(vec3(0.016, 0.021, 0.027), vec3(0.150, 0.172, 0.188), pool);
 
-    // The sun's shadow: where the way to the sun meets the board's plane. Softer the further it fell.
+    // The sun's shadow: where the ray to the sun meets the board's plane. Softer the further it fell.
     let shaded = table.xy - frame.sun.xy * (table.z / frame.sun.z);
     light *= 1.0 - 0.62 * smoothstep(0.45 * drop, -0.45 * drop, from_board(shaded));
     // The sky's: right below.

@@ -27,13 +27,13 @@ fn mirrored_room(p: vec3<f32>, r: vec3<f32>) -> vec3<f32> {
     let reach = max(p.z, 0.0) / max(-r.z, 0.02);
     let hit = p.xy + r.xy * min(reach, 6.0);
     let texel = textureSampleLevel(surface_texture, surface_sampler, surface_uv(hit), 3.5).rgb;
-    // A texture that is not decoded when looked at: sRGB is close to a power of 2.2.
+    // A texture that is not decoded when sampled: sRGB is close to a power of 2.2.
     let wood = select(texel, pow(texel, vec3(2.2)), is_plain);
     let sunlit = sun_over_walls(vec3(hit, 0.01), vec3(0.0, 0.0, 1.0)) * max(frame.sun.z, 0.0);
     let floor_seen = wood * (SUN_LIGHT * sunlit / 2.2 + SKY_LIGHT * sky_over_floor(hit));
     light = mix(light, floor_seen, smoothstep(0.02, -0.10, r.z));
 
-    // The nearest wall on the way, looked for in a few steps.
+    // The nearest wall on the ray, found in a few steps.
     for (var i = 4; 1 <= i; i--) {
         let q = p + r * (0.22 * f32(i));
         let inside = smoothstep(0.4, 0.6, walls_at(q.xy).y) * smoothstep(frame.sky.w, frame.sky.w - 0.08, q.z);

@@ -53,8 +53,8 @@ struct Soft {
 }
 
 // A strip along the outline of a wall's shadow, from dark to light over a texel or more: smooth, and it moves smoothly,
-// with one sample a texel. The normal holds the way out of the wall in x and y, and in z 1 at the outer end; or only
-// z, -1 or 1 at an outer end, for the way across the sun's light.
+// with one sample a texel. The normal holds the direction out of the wall in x and y, and in z 1 at the outer end; or only
+// z, -1 or 1 at an outer end, for the direction across the sun's light.
 @vertex
 fn vertex_soft(in: Vertex) -> Soft {
     let across = vec2(-frame.sun.y, frame.sun.x) / max(length(frame.sun.xy), 1e-3);

@@ -14,7 +14,7 @@ struct Frame {
     goal: vec4<f32>,          // x, y; radius; glow
     board: vec4<f32>,         // smallest x, y; largest x, y
     occlusion: vec4<f32>,     // occlusion map from maze x, y: scale; offset
-    shadow: vec4<f32>,        // blur in the sun's map x, y; distance to step off a surface; width of a soft edge in the floor's light
+    shadow: vec4<f32>,        // blur in the shadow map x, y; distance to step off a surface; width of a soft edge in the floor's light
     floor: vec4<f32>,         // the floor's mean colour, linear; unused
     ghost: vec4<f32>,         // centre; radius
 }

@@ -6,8 +6,8 @@
 @group(1) @binding(3) var occlusion_sampler: sampler;
 @group(1) @binding(4) var floor_light: texture_2d<f32>;
 
-// Looks at the sun's map along each side of a soft edge; with none, the map of the floor's light is asked instead.
-override sun_looks: i32 = 3;
+// PCF taps of the shadow map along each side of a soft edge; with none, the map of the floor's light is asked instead.
+override pcf_taps: i32 = 3;
 
 const PI = 3.14159265;
 const SUN_LIGHT = vec3(2.45, 2.22, 1.92);
@@ -32,19 +32,19 @@ fn walls_at(p: vec2<f32>) -> vec2<f32> {
     return textureSampleLevel(occlusion_map, occlusion_sampler, p * frame.occlusion.xy + frame.occlusion.zw, 0.0).rg;
 }
 
-// 1 in the sun, 0 behind a wall: a square of looks at the sun's map, heavier in the middle, each the mean of four texels.
+// 1 in the sun, 0 behind a wall: a square of PCF taps of the shadow map, heavier in the middle, each the mean of four texels.
 fn sun_over_walls(p: vec3<f32>, n: vec3<f32>) -> f32 {
-    if sun_looks == 0 {
+    if pcf_taps == 0 {
         let floor = p.xy - frame.sun.xy * (p.z / max(frame.sun.z, 0.1));
         return textureSampleLevel(floor_light, occlusion_sampler, floor * frame.occlusion.xy + frame.occlusion.zw, 0.0).r;
     }
     let clip = frame.sun_clip_from_maze * vec4(p + n * frame.shadow.z, 1.0);
     let uv = vec2(0.5 + 0.5 * clip.x, 0.5 - 0.5 * clip.y);
-    let last = 0.5 * f32(sun_looks - 1);
+    let last = 0.5 * f32(pcf_taps - 1);
     var sum = 0.0;
     var whole = 0.0;
-    for (var i = 0; i < sun_looks; i++) {
-        for (var j = 0; j < sun_looks; j++) {
+    for (var i = 0; i < pcf_taps; i++) {
+        for (var j = 0; j < pcf_taps; j++) {
             let offset = vec2(f32(i), f32(j)) - last;
             let weight = (last + 1.0 - abs(offset.x)) * (last + 1.0 - abs(offset.y));
             sum += weight * textureSampleCompareLevel(sun_map, sun_sampler, uv + offset * frame.shadow.xy, clip.z);

@@ -1,6 +1,6 @@
 // Walls, tops, floor and rim.
 
-// How far the relief stands out.
+// How strong the normal map is.
 const RELIEF = 0.9;
 
 struct Corner {

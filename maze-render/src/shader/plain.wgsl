@@ -75,7 +75,7 @@ struct Edge {
     @location(2) cover: f32,
 }
 
-// The normal holds the way out of the top in x and y, and in z 1 at the outer end.
+// The normal holds the direction out of the top in x and y, and in z 1 at the outer end.
 @vertex
 fn vertex_edge(in: Vertex) -> Edge {
     let out = vec3(in.normal.xy, 0.0);

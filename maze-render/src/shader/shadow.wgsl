@@ -1,4 +1,4 @@
-// The sun's map: depth only.
+// The shadow map: depth only.
 
 @vertex
 fn vertex(@location(0) position: vec3<f32>) -> @builtin(position) vec4<f32> {

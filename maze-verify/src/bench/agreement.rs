@@ -3,7 +3,7 @@
 use super::case::QuerySet;
 use super::search::{Contender, Search};
 
-/// Answers that differ by more than this (units along the way) count as different: what the game would show.
+/// Answers that differ by more than this (units along the path) count as different: what the game would show.
 pub const APART: f64 = 1.0e-3;
 
 /// What is asked of a contender's answers.

@@ -25,7 +25,7 @@ pub const STEPS: [f64; 4] = [0.01, 0.1, 1.0, 10.0];
 /// Of the layout and of the random queries: anything, so long as it stays.
 const SEED: u64 = 2020;
 
-/// A pull of 1 unit/s² turns round once in so many ticks: slowly enough that the ball meets walls again and again.
+/// A acceleration of 1 unit/s² turns round once in so many ticks: slowly enough that the ball meets walls again and again.
 const TICKS_A_TURN: u32 = 333;
 
 /// A face of the walls, and which of its ends are corners that a ball can touch.
@@ -102,7 +102,7 @@ impl Case {
         self.side
     }
 
-    /// Faces that look into the maze.
+    /// Faces whose normals point into the maze.
     pub fn faces(&self) -> &[WallFace] {
         &self.faces
     }
@@ -222,14 +222,14 @@ impl Case {
         let mut engine = Continuous::new(Arc::clone(self.board.planes()), spec, ball, TICK_S)
             .map_err(BenchError::set_up)?;
         let mut queries = Vec::with_capacity(n);
-        for pull in turning_pulls().into_iter().cycle().take(n) {
+        for acceleration in turning_accelerations().into_iter().cycle().take(n) {
             let before = engine.ball();
-            engine.tick(pull).map_err(BenchError::set_up)?;
+            engine.tick(acceleration).map_err(BenchError::set_up)?;
             let after = engine.ball();
             // What only presses the ball onto a wall that it rests on is no motion: the engine does not ask about it.
             let rests = |axis| before.velocity[axis] == 0.0 && before.position[axis] == after.position[axis];
-            let moves = |axis, pull: f64| if rests(axis) { 0.0 } else { pull * spec.rolling };
-            let acceleration = Vector2::new(moves(0, pull.x), moves(1, pull.y));
+            let moves = |axis, acceleration: f64| if rests(axis) { 0.0 } else { acceleration * spec.rolling };
+            let acceleration = Vector2::new(moves(0, acceleration.x), moves(1, acceleration.y));
             let path = Path { position: before.position, velocity: before.velocity, acceleration };
             queries.push(Query { path, until_s: TICK_S });
         }
@@ -243,8 +243,8 @@ pub fn spec() -> BallSpec {
     BallSpec { radius, ..BallSpec::default() }
 }
 
-/// A pull of 1 unit/s² that turns round once in 10 s, tick by tick.
-pub fn turning_pulls() -> Vec<Vector2<f64>> {
+/// A acceleration of 1 unit/s² that turns round once in 10 s, tick by tick.
+pub fn turning_accelerations() -> Vec<Vector2<f64>> {
     let turn = |tick: u32| f64::from(tick) / f64::from(TICKS_A_TURN) * std::f64::consts::TAU;
     (0..TICKS_A_TURN).map(|tick| Vector2::new(turn(tick).cos(), turn(tick).sin())).collect()
 }

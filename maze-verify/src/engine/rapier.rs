@@ -13,7 +13,7 @@ pub enum Walls {
     Cuboids,
     /// The same cuboids as one compound shape: what a large maze is best given as.
     Compound,
-    /// One triangle mesh, with the contacts at its inner edges mended ([`TriMeshFlags::FIX_INTERNAL_EDGES`]).
+    /// One triangle mesh, with the contacts at its internal edges corrected ([`TriMeshFlags::FIX_INTERNAL_EDGES`]).
     TriangleMesh,
 }
 
@@ -72,7 +72,7 @@ impl RapierEngine {
         self.world.integration_parameters.max_ccd_substeps = if is_on { usual } else { 0 };
     }
 
-    /// rapier's step under an acceleration (units/s²) and nothing else: [`Engine::tick`] without a look at what happened.
+    /// rapier's step under an acceleration (units/s²) and nothing else: [`Engine::tick`] without reading its events.
     /// Needs a finite acceleration.
     pub fn step(&mut self, acceleration: Vector2<f64>) {
         self.world.gravity = in_plane(acceleration * self.spec.rolling);

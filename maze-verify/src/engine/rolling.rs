@@ -1,4 +1,4 @@
-//! rapier3d as a [`maze_core::Engine`], without the method's relaxation: gravity stays where it is, the board tilts, and a
+//! rapier3d as a [`maze_core::Engine`], without the projection's model error: gravity stays where it is, the board tilts, and a
 //! ball rolls on it in three dimensions.
 
 use super::rapier::{Walls, colliders, in_plane, to_f32, world};

@@ -3,7 +3,7 @@
 use super::number::{percent, plain, tick};
 use super::plot::{Line, Plot, Scale, escaped};
 use super::summary::{Finding, findings};
-use super::{drawing, relaxed};
+use super::{drawing, model_error};
 use crate::contender::Contender;
 use crate::metrics::Metrics;
 use crate::results::{CaseResult, Results, SceneResult};
@@ -44,7 +44,7 @@ pub fn html(results: &Results) -> String {
         card(&finding, &mut page);
     }
     page += "</div>";
-    relaxed::section(results, &mut page);
+    model_error::section(results, &mut page);
     verdicts(results, &mut page);
     worst_cases(results, &mut page);
     let [told, mazes]: [Vec<_>; 2] = [false, true].map(|is_maze| {
@@ -58,19 +58,19 @@ pub fn html(results: &Results) -> String {
     if let Some(plot) = parting(&mazes) {
         let _ = write!(
             page,
-            "<h2>Random mazes: when engines part</h2><p class=\"soft\">Before they part, the first bounces agree (see the bars); \
+            "<h2>Random mazes: when engines part</h2><p class=\"soft\">Before they part, the first bounces agree (see the tolerances); \
              after that only distributions can.</p><div class=\"views\">{}{}</div>",
             plot.svg(),
             liveliness(&mazes).svg()
         );
     }
     scene_list("Random mazes, earliest parted first", &mazes, N_OPEN_MAZES, &mut page);
-    page += "<p class=\"soft\">Definitions of all metrics, the reasons of all bars and what cannot be matched with rapier: \
+    page += "<p class=\"soft\">Definitions of all metrics, the reasons of all tolerances and what cannot be matched with rapier: \
              docs/verification.md.</p></body></html>\n";
     page
 }
 
-/// How far the planar engines are off: with a truth by the way gone, else by how early they part.
+/// How far the planar engines are off: with a truth by the distance covered, else by how early they part.
 fn badness(scene: &SceneResult) -> f64 {
     let runs = scene.first_case().into_iter().flat_map(|case| &case.runs);
     let planar = runs.filter(|run| run.engine != Contender::RapierRolling);
@@ -87,8 +87,8 @@ fn header(results: &Results, page: &mut String) {
     let n_runs: usize =
         results.scenes.iter().flat_map(|scene| &scene.cases).map(|case| case.runs.len()).sum();
     let (class, verdict) = match n_missed {
-        0 => ("good", format!("All {} bars hold", results.verdicts.len())),
-        _ => ("bad", format!("{n_missed} of {} bars missed", results.verdicts.len())),
+        0 => ("good", format!("All {} tolerances hold", results.verdicts.len())),
+        _ => ("bad", format!("{n_missed} of {} tolerances missed", results.verdicts.len())),
     };
     let part = match results.partition.n {
         1 => String::new(),
@@ -201,7 +201,7 @@ fn worst_cases(results: &Results, page: &mut String) {
     if cases.is_empty() {
         return;
     }
-    *page += "<h2>Worst cases</h2><p class=\"soft\">Farthest from closed form, by the way that the true ball went. One row a \
+    *page += "<h2>Worst cases</h2><p class=\"soft\">Farthest from closed form, by the distance that the true ball covered. One row a \
               scene and engine, with its worst tick.</p><div class=\"scroll\"><table><tr><th>Scene</th><th>Engine</th>\
               <th>Tick</th><th>Off by</th><th class=\"words\">What it is</th></tr>";
     let mut seen: Vec<(&str, Contender)> = Vec::new();

@@ -2,9 +2,9 @@
 
 mod drawing;
 mod html;
+mod model_error;
 pub(crate) mod number;
 pub(crate) mod plot;
-mod relaxed;
 mod summary;
 mod table;
 

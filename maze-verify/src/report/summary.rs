@@ -46,7 +46,7 @@ pub struct Finding {
 const TOPICS: &[Topic] = &[
     Topic {
         title: "Running on a tilted board",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Tilt],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -54,7 +54,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Bouncing off walls",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Bounce],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -86,7 +86,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Grazing a corner",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Graze],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -94,7 +94,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Sliding, resting, squeezing through",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Slide],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -102,7 +102,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "A wall made of many pieces",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Seams],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -110,7 +110,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "High speed",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Speed],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -118,7 +118,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Wedged",
-        asks: "Distance of the last place to where the ball must lie, and its way in a second",
+        asks: "Distance of the last place to where the ball must lie, and its distance in a second",
         families: &[Family::Wedge],
         value: |m| m.rest_error,
         shown: plain,
@@ -126,7 +126,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Rolling over an edge",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::RollOver, Family::FreeEnd],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -134,7 +134,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Steps and slits in a floor",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Step, Family::Slit],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -142,7 +142,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "A corridor as wide as the ball",
-        asks: "Distance to the true place, by the way gone",
+        asks: "Distance to the true place, by the distance covered",
         families: &[Family::Narrow],
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
@@ -150,7 +150,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "A corridor that is too narrow by 1e-9",
-        asks: "Distance of the last place to where the ball must lie, and its way in a second",
+        asks: "Distance of the last place to where the ball must lie, and its distance in a second",
         families: &[Family::Narrow],
         value: |m| m.rest_error,
         shown: plain,
@@ -166,7 +166,7 @@ const TOPICS: &[Topic] = &[
     },
     Topic {
         title: "Through the wall",
-        asks: "Ticks that ended where no way leads",
+        asks: "Ticks that ended where no path leads",
         families: &Family::ALL,
         value: |m| Some(f64::from(m.n_tunnels)),
         shown: |value| format!("{value:.0}"),
@@ -194,7 +194,7 @@ pub fn findings(results: &Results) -> Vec<Finding> {
         TOPICS.iter().filter_map(|topic| topic.finding(&results.scenes)).collect();
     findings.extend(mazes(&results.scenes));
     findings.extend(speed(&results.scenes));
-    findings.extend(relaxation(results));
+    findings.extend(model_error(results));
     findings
 }
 
@@ -333,7 +333,7 @@ fn speed(scenes: &[SceneResult]) -> Option<Finding> {
     Some(Finding {
         title: "Time a tick".to_owned(),
         text: format!(
-            "In a maze (median, on the machine that ran this; reported, never a bar): continuous {} ns, {}.",
+            "In a maze (median, on the machine that ran this; reported, never a tolerance): continuous {} ns, {}.",
             plain(ours),
             told.join(", ")
         ),
@@ -342,16 +342,16 @@ fn speed(scenes: &[SceneResult]) -> Option<Finding> {
     })
 }
 
-fn relaxation(results: &Results) -> Option<Finding> {
-    let relaxation = results.relaxation.as_ref()?;
-    let held = relaxation.held.iter().map(|held| (held.part * 7.0 / 5.0 - 1.0).abs()).fold(0.0, f64::max);
+fn model_error(results: &Results) -> Option<Finding> {
+    let model_error = results.model_error.as_ref()?;
+    let held = model_error.held.iter().map(|held| (held.part * 7.0 / 5.0 - 1.0).abs()).fold(0.0, f64::max);
     let find_swing = |amplitude_deg: f64| {
-        let mut swings = relaxation.swings.iter();
+        let mut swings = model_error.swings.iter();
         swings.find(|swing| swing.amplitude_deg == amplitude_deg && swing.frequency_hz == 0.5)
     };
     let gentle = find_swing(5.0);
     let wild = find_swing(20.0);
-    let told = |swing: &crate::relaxation::Swing| {
+    let told = |swing: &crate::model_error::Swing| {
         format!(
             "±{}° at {} Hz: {} of {} corridors",
             swing.amplitude_deg,
@@ -360,18 +360,18 @@ fn relaxation(results: &Results) -> Option<Finding> {
             plain(swing.travel)
         )
     };
-    let n_thrown = relaxation.swings.iter().filter(|swing| swing.thrown_s.is_some()).count();
-    let bounce = relaxation.bounces.iter().find(|bounce| bounce.restitution == 0.8)?;
+    let n_thrown = model_error.swings.iter().filter(|swing| swing.thrown_s.is_some()).count();
+    let bounce = model_error.bounces.iter().find(|bounce| bounce.restitution == 0.8)?;
     Some(Finding {
-        title: "The relaxation itself: project gravity, forget z".to_owned(),
+        title: "The model error: project gravity, forget z".to_owned(),
         text: format!(
-            "On a board held still it is right: a real sphere gets 5/7 of the projected pull to {}, whatever the tilt. On a \
+            "On a board held still it is right: a real sphere gets 5/7 of the projected acceleration to {}, whatever the tilt. On a \
              board in motion it lacks the board's own turning; after 4 s it is off by ({}). In {n_thrown} of {} swings the \
              board throws the ball off, which the method cannot know. And a real ball keeps its spin at a wall: with \
-             restitution 0.8 it comes back with {} of its speed and not with 0.8 (theory: {}).",
+             restitution 0.8 it returns with {} of its speed and not with 0.8 (theory: {}).",
             percent(held),
             [gentle, wild].into_iter().flatten().map(told).collect::<Vec<_>>().join("; "),
-            relaxation.swings.len(),
+            model_error.swings.len(),
             plain(bounce.measured),
             plain(bounce.formula)
         ),

@@ -7,7 +7,7 @@ use crate::results::Results;
 use crate::scene::Family;
 use std::fmt::Write;
 
-/// Most missed runs of a bar that are listed.
+/// Most missed runs of a tolerance that are listed.
 const MAX_LISTED: usize = 10;
 
 /// A block of the table: one number a family and engine.
@@ -19,7 +19,7 @@ struct Block {
 
 const BLOCKS: [Block; 5] = [
     Block {
-        title: "Position error, by the way gone",
+        title: "Position error, by the distance covered",
         value: |m| Some(m.errors.as_ref()?.position_part),
         shown: percent,
     },
@@ -37,7 +37,7 @@ const BLOCKS: [Block; 5] = [
     Block { title: "Ticks that ended beyond a wall", value: |m| Some(f64::from(m.n_tunnels)), shown: plain },
 ];
 
-/// Errors by family and engine with each scene's first tick length, then every bar.
+/// Errors by family and engine with each scene's first tick length, then every tolerance.
 pub fn table(results: &Results) -> String {
     let mut text = String::from("The worst of each family, with the longest tick of each scene\n\n");
     for block in &BLOCKS {

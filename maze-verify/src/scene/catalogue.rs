@@ -95,7 +95,7 @@ fn tilts() -> Vec<Scene> {
             ball: ball([0.0, 0.0], [0.0, 0.0]),
             gravity: constant,
             spec: rolling,
-            ..free("tilt-rolling", "A solid sphere rolls down a tilted board: 5/7 of the pull.")
+            ..free("tilt-rolling", "A solid sphere rolls down a tilted board: 5/7 of the acceleration.")
         },
         Scene {
             ball: ball([0.0, 0.0], [0.0, 0.0]),
@@ -235,7 +235,7 @@ fn slides() -> Vec<Scene> {
         Scene { gravity: along, ..on_ground("slide", "Pressed onto a wall and pulled along it.") },
         Scene {
             ball: ball([0.0, R], [SPEED, 0.0]),
-            ..on_ground("graze-wall", "Along a wall, touching it, without pull.")
+            ..on_ground("graze-wall", "Along a wall, touching it, without acceleration.")
         },
         Scene {
             walls: Walls::Rectangles(seams.clone()),

@@ -37,8 +37,8 @@ fn noise(seed: u64, index: u64) -> f64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     #[allow(clippy::cast_precision_loss, reason = "53 bits are kept on purpose")]
-    let part = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64;
-    part - 1.0
+    let fraction = ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64;
+    fraction - 1.0
 }
 
 impl Gravity {
@@ -55,12 +55,12 @@ impl Gravity {
                 let knots = time_s / hold_s;
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count from 0")]
                 let index = knots.floor() as u64;
-                let part = knots - knots.floor();
-                let part = part * part * (3.0 - 2.0 * part);
+                let fraction = knots - knots.floor();
+                let fraction = fraction * fraction * (3.0 - 2.0 * fraction);
                 [0, 1].map(|axis| {
                     // The board begins level.
                     let knot = |k: u64| if k == 0 { 0.0 } else { max_deg * noise(seed, 2 * k + axis) };
-                    knot(index) * (1.0 - part) + knot(index + 1) * part
+                    knot(index) * (1.0 - fraction) + knot(index + 1) * fraction
                 })
             }
         }

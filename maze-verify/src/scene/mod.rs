@@ -17,7 +17,7 @@ use maze_core::{AssembleError, AssembleOptions, Ball, BallSpec, Bounds, Maze, Pl
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-/// What a scene is about; bars and summary speak of families.
+/// What a scene is about; tolerances and summary speak of families.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {

@@ -66,8 +66,8 @@ fn keys_with(rows: [&str; 3]) -> Vec<(KeyCode, char)> {
 fn i1_a_direction_is_on_while_any_of_its_keys_is_down() {
     let mut keyboard = Keyboard::default();
     let right = named(KeyCode::ArrowRight, NamedKey::ArrowRight);
-    assert_eq!(keyboard.stroke(&right), Some(Wish::Tilt(Direction::Right)));
-    assert_eq!(keyboard.stroke(&press(KeyCode::KeyD, 'd')), Some(Wish::Tilt(Direction::Right)));
+    assert_eq!(keyboard.stroke(&right), Some(Effect::Tilt(Direction::Right)));
+    assert_eq!(keyboard.stroke(&press(KeyCode::KeyD, 'd')), Some(Effect::Tilt(Direction::Right)));
     // The keyboard repeats a held key.
     assert_eq!(keyboard.stroke(&press(KeyCode::KeyD, 'd')), None);
     assert_eq!(keyboard.stroke(&release(KeyCode::KeyD, 'd')), None);
@@ -90,16 +90,16 @@ fn i2_i3_on_every_layout_a_place_does_the_same_one_thing() {
                 // With Caps Lock, or a layout's own idea of it.
                 let mut stroke = press(place, shown);
                 stroke.letter = character(letter);
-                let wish = keyboard.stroke(&stroke);
+                let effect = keyboard.stroke(&stroke);
                 match expected {
-                    None => assert_eq!(wish, None, "{name}: {letter}"),
+                    None => assert_eq!(effect, None, "{name}: {letter}"),
                     Some(Control::Act(action)) => {
-                        assert_eq!(wish, Some(Wish::Act(action)), "{name}: {letter}");
+                        assert_eq!(effect, Some(Effect::Act(action)), "{name}: {letter}");
                         assert_eq!(directions(&keyboard), [], "{name}: {letter} tilts, too");
                     }
-                    Some(Control::Tilt(way)) => {
-                        assert_eq!(wish, Some(Wish::Tilt(way)), "{name}: {letter}");
-                        assert_eq!(directions(&keyboard), [way]);
+                    Some(Control::Tilt(direction)) => {
+                        assert_eq!(effect, Some(Effect::Tilt(direction)), "{name}: {letter}");
+                        assert_eq!(directions(&keyboard), [direction]);
                     }
                 }
                 keyboard.stroke(&release(place, shown));
@@ -152,7 +152,7 @@ fn i3_with_ctrl_alt_or_the_logo_key_nothing_happens_and_shift_does_not_tilt() {
         assert_eq!(keyboard.stroke(&press(KeyCode::KeyD, 'd')), None);
         let restart = keyboard.stroke(&press(KeyCode::KeyR, 'r'));
         assert_eq!(restart.is_some(), modifiers == ModifiersState::SHIFT);
-        // The modifier is let go first, and the held key repeats.
+        // The modifier is released first, and the held key repeats.
         keyboard.set_modifiers(ModifiersState::empty());
         assert_eq!(keyboard.stroke(&press(KeyCode::KeyD, 'd')), None);
         assert_eq!(directions(&keyboard), []);
@@ -167,15 +167,15 @@ fn i3_with_ctrl_alt_or_the_logo_key_nothing_happens_and_shift_does_not_tilt() {
 fn keys_are_told_by_name_where_they_print_nothing() {
     let mut keyboard = Keyboard::default();
     // Esc on Caps Lock, and arrows on a number pad without Num Lock.
-    assert_eq!(keyboard.stroke(&named(KeyCode::CapsLock, NamedKey::Escape)), Some(Wish::Act(Action::Quit)));
+    assert_eq!(keyboard.stroke(&named(KeyCode::CapsLock, NamedKey::Escape)), Some(Effect::Act(Action::Quit)));
     let up = named(KeyCode::Numpad8, NamedKey::ArrowUp);
-    assert_eq!(keyboard.stroke(&up), Some(Wish::Tilt(Direction::Away)));
+    assert_eq!(keyboard.stroke(&up), Some(Effect::Tilt(Direction::Away)));
     // With Num Lock.
     let one = press(KeyCode::Numpad1, '1');
-    assert!(matches!(keyboard.stroke(&one), Some(Wish::Act(Action::ToggleLayer(_)))));
+    assert!(matches!(keyboard.stroke(&one), Some(Effect::Act(Action::ToggleLayer(_)))));
     // Dead keys print nothing yet.
     let dead = Stroke { key: Key::Dead(Some('^')), ..press(KeyCode::KeyR, '^') };
-    assert_eq!(keyboard.stroke(&dead), Some(Wish::Act(Action::Restart)));
+    assert_eq!(keyboard.stroke(&dead), Some(Effect::Act(Action::Restart)));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::{MAX_CORNERS, MAX_REPEATS, ObjError};
 use std::borrow::Cow;
 use std::io::{self, Cursor, Read, Write};
 
-/// A line, joined with those that it says it goes on in.
+/// A line, joined with those that continue it.
 pub(super) struct Line<'a> {
     number: usize, // counted from 1
     pub(super) content: Cow<'a, [u8]>,
@@ -60,7 +60,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// A vertex or face that goes on in the next line, without the backslash that says so. Comments do not: some end with the
+/// A vertex or face that continues in the next line, without the backslash that marks it. Comments do not: some end with the
 /// path of a Windows directory.
 fn unfinished(line: &[u8]) -> Option<&[u8]> {
     let line = line.trim_ascii_end().strip_suffix(b"\\")?;
@@ -235,8 +235,8 @@ impl<I: Iterator<Item = Result<Vec<u8>, ObjError>>> Read for LineReader<I> {
     }
 }
 
-/// Part of a file's vertices, at its end, that may be without a face in a whole file.
-const MAX_UNUSED_PART: f64 = 0.05;
+/// Fraction of a file's vertices, at its end, that may be without a face in a whole file.
+const MAX_UNUSED_FRACTION: f64 = 0.05;
 
 /// How much of everything a file holds.
 #[derive(Default)]
@@ -274,7 +274,8 @@ impl Counts {
     fn is_cut_off(&self, n_unused: usize) -> bool {
         #[allow(clippy::cast_precision_loss, reason = "a file has far fewer than 2^53 vertices")]
         let unused_part = n_unused as f64 / self.n_vertices as f64;
-        let suspicious = if self.ends_with_line_break { MAX_UNUSED_PART < unused_part } else { 0 < n_unused };
+        let suspicious =
+            if self.ends_with_line_break { MAX_UNUSED_FRACTION < unused_part } else { 0 < n_unused };
         0 < self.n_faces && suspicious && self.n_others == 0
     }
 }

@@ -1,7 +1,7 @@
 //! Wavefront OBJ (B1 of the Advanced Visualizer's manual, 1995): the polygons of it, and nothing else.
 //!
 //! tobj reads the vertices and faces. What it gets is checked and cleaned line by line in `clean`, so that no fault in
-//! normals, materials or names makes it refuse a good maze, and every fault that counts is told with its line.
+//! normals, materials or names makes it refuse a good maze, and every fault that matters is reported with its line.
 
 mod clean;
 
@@ -95,7 +95,7 @@ const MAX_CORNERS: usize = 4096;
 /// and round would take minutes to cut into triangles.
 const MAX_REPEATS: usize = 4;
 
-/// Polygons of an OBJ file; objects and groups are joined; lines, points, curves, normals and materials are not looked at.
+/// Polygons of an OBJ file; objects and groups are joined; lines, points, curves, normals and materials are not read.
 ///
 /// A face of fewer than three corners is kept as it is: some programs write loose edges so, and it has no area. Positions
 /// are those that faces use; in a large file some come more than once.
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_wall_is_not_looked_at() {
+    fn what_is_no_wall_is_not_read() {
         let whole = read(format!("{SQUARE}f 1 2 3 4\n").as_bytes()).unwrap();
         let noise = "vt x\nvn 1\nl 1 2 99\np 7\nusemtl\n";
         let huge = "f 1/18446744073709551615/-3 2//6148914691236517206 3/-9 4\n";
@@ -289,7 +289,7 @@ mod tests {
         let little: Vec<u8> = with_mark.encode_utf16().flat_map(u16::to_le_bytes).collect();
         let big: Vec<u8> = with_mark.encode_utf16().flat_map(u16::to_be_bytes).collect();
         assert_eq!((read(&little).unwrap(), read(&big).unwrap()), (whole.clone(), whole));
-        // A line that goes on is told by its first line's number.
+        // A continued line is reported by the number of its first line.
         assert!(message(&format!("{SQUARE}f 1 2 \\\n9\n")).starts_with("line 5: face uses vertex 9"));
     }
 

@@ -6,8 +6,8 @@ use super::{PictureError, WallTone};
 /// is near 255, and smoothed edges and compression noise stay on their side.
 const HALF: u8 = 128;
 
-/// Fewer pixels than this part on one side of half are no tone of their own: the threshold is looked for.
-const FEW_PART: f64 = 0.01;
+/// Fewer pixels than this fraction on one side of half are no tone of their own: the threshold is computed.
+const FEW_FRACTION: f64 = 0.01;
 
 /// Means of dark and light are at least so far apart, of 255.
 const LEAST_CONTRAST: f64 = 32.0;
@@ -15,20 +15,20 @@ const LEAST_CONTRAST: f64 = 32.0;
 /// The largest of red, green and blue less the smallest from which on a pixel has a colour.
 const COLOURED: u8 = 80;
 
-/// Part of the pixels that may be marks and solutions in colour on a grey drawing.
+/// Fraction of the pixels that may be marks and solutions in colour on a grey drawing.
 const MAX_MARKED: f64 = 0.25;
 
 /// How much wider than the light lines the dark ones are where the light ones are the walls.
 const INVERTED_RATIO: usize = 3; // halves
 
-/// Part of a border that is of one tone when nothing but noise and openings interrupts it.
-const PURE_PART: f64 = 0.98;
-const CLOSED_PART: f64 = 0.88;
+/// Fraction of a border that is of one tone when nothing but noise and openings interrupts it.
+const PURE_FRACTION: f64 = 0.98;
+const CLOSED_FRACTION: f64 = 0.88;
 
 /// A row or column of which at least one in so many pixels is of a tone is no opening.
 const DENSE: usize = 4;
 
-/// Steepest turn that is looked for, and the least that refuses a picture (degrees).
+/// Steepest turn that is searched for, and the least that refuses a picture (degrees).
 const MAX_TURN: i32 = 45;
 const MIN_TURN: i32 = 3;
 
@@ -65,7 +65,7 @@ impl Mask {
         bounds
     }
 
-    /// The first and the last column and row of which a good part is such pixels: openings of a ring around them do not count.
+    /// The first and the last column and row of which a good fraction is such pixels: openings of a ring around them do not count.
     fn dense_bounds(&self) -> Option<[usize; 4]> {
         let is_dense = |n: usize, of: usize| of <= DENSE * n;
         let mut in_column = vec![0_usize; self.width];
@@ -112,7 +112,7 @@ impl Mask {
         if most == 0 { 0 } else { counts.iter().position(|n| *n == most).unwrap_or(0) }
     }
 
-    /// Part of the border of a rectangle of pixels that has a value.
+    /// Fraction of the border of a rectangle of pixels that has a value.
     fn border_part(&self, [left, right, top, bottom]: [usize; 4], value: bool) -> f64 {
         let across = (left..=right).flat_map(|x| [(x, top), (x, bottom)]);
         let along = (top..=bottom).flat_map(|y| [(left, y), (right, y)]);
@@ -203,12 +203,12 @@ pub(super) fn luma([r, g, b]: [u8; 3]) -> u8 {
     u8::try_from(sum / 1000).unwrap_or(u8::MAX)
 }
 
-/// What is darker than this is dark: half where both sides of it are there, else where the two classes of brightness part best
+/// What is darker than this is dark: half where both sides of it are there, else where the two classes of brightness separate best
 /// (Otsu 1979). `None` for one tone alone.
 fn threshold(counts: &[usize; 256]) -> Option<u8> {
     let total: usize = counts.iter().sum();
     let below = |t: usize| counts[..t].iter().sum::<usize>();
-    let few = FEW_PART * to_f64(total);
+    let few = FEW_FRACTION * to_f64(total);
     let n_dark = to_f64(below(usize::from(HALF)));
     if 0.0 < n_dark && few <= n_dark && n_dark <= to_f64(total) - few && n_dark < to_f64(total) {
         return Some(HALF);
@@ -240,12 +240,12 @@ fn wall_tone(dark: &Mask) -> Result<WallTone, PictureError> {
     let (Some(dark_box), Some(light_box)) = (dark.dense_bounds(), light.dense_bounds()) else {
         return Ok(WallTone::Dark);
     };
-    if PURE_PART <= dark.border_part(dark.whole(), true) {
+    if PURE_FRACTION <= dark.border_part(dark.whole(), true) {
         // A dark margin around light walls, or dark outer walls.
-        let is_ring = light_box != dark.whole() && CLOSED_PART <= dark.border_part(light_box, false);
+        let is_ring = light_box != dark.whole() && CLOSED_FRACTION <= dark.border_part(light_box, false);
         return Ok(if is_wide && is_ring { WallTone::Light } else { WallTone::Dark });
     }
-    if dark.border_part(dark.whole(), false) < CLOSED_PART {
+    if dark.border_part(dark.whole(), false) < CLOSED_FRACTION {
         return Ok(WallTone::Dark);
     }
     // A light margin around dark walls, or light outer walls, which are as thick as the other ones.
@@ -253,7 +253,7 @@ fn wall_tone(dark: &Mask) -> Result<WallTone, PictureError> {
     let margins = [left, dark.width - 1 - right, top, dark.height - 1 - bottom];
     let is_outer_wall =
         margins.iter().all(|margin| 3 * light_run <= 4 * margin && 3 * margin <= 4 * light_run);
-    match (is_outer_wall, is_wide, dark.border_part(dark_box, true) < CLOSED_PART) {
+    match (is_outer_wall, is_wide, dark.border_part(dark_box, true) < CLOSED_FRACTION) {
         (true, true, _) => Ok(WallTone::Light),
         (true, false, true) => Err(PictureError::Ambiguous),
         _ => Ok(WallTone::Dark),

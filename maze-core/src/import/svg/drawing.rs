@@ -24,8 +24,8 @@ const SAME_COLOUR: u8 = 24;
 /// The largest of red, green and blue less the smallest from which on something has a colour.
 const COLOURED: u8 = 80;
 
-/// Part of its rectangle that the ground of a page fills.
-const PAGE_PART: f64 = 0.9;
+/// Fraction of its rectangle that the ground of a page fills.
+const PAGE_FRACTION: f64 = 0.9;
 
 /// Which element a stroke comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -125,7 +125,7 @@ impl Drawing {
             let (Some(fill), Some([low, high])) = (first.fill, first.bounds()) else { break };
             let covers = bounds(&shapes[1..])
                 .is_none_or(|[a, b]| (0..2).all(|axis| low[axis] <= a[axis] && b[axis] <= high[axis]));
-            let fills = area(first) >= PAGE_PART * (high[0] - low[0]) * (high[1] - low[1]);
+            let fills = area(first) >= PAGE_FRACTION * (high[0] - low[0]) * (high[1] - low[1]);
             // Light areas on a dark one are corridors in a solid block, light strokes are walls on dark paper.
             let is_block = is_dark(fill) && shapes[1..].iter().all(|shape| shape.stroke.is_none());
             if !covers || !fills || is_block || first.stroke.is_some() || shapes.len() == 1 {

@@ -9,14 +9,14 @@ use crate::physics::numbers::{greater, lesser};
 /// How far from a grid line, in cells, a wall may lie: drawings are rounded, to a tenth of a unit in cells of 16 or so.
 const OFF_GRID: f64 = 0.03;
 
-/// Gaps below this part of the widest one between two walls are rounding and not cells. It must be above [`OFF_GRID`], so that
-/// a real cell that is so narrow is told as off the grid and not lost.
-const ROUNDING_PART: f64 = 0.05;
+/// Gaps below this fraction of the widest one between two walls are rounding and not cells. It must be above [`OFF_GRID`], so that
+/// a real cell that is so narrow is reported as off the grid and not lost.
+const ROUNDING_FRACTION: f64 = 0.05;
 
-/// Coordinates nearer than this part of the drawing's size are one: a tenth of a cell in the largest layout.
-const SAME_PART: f64 = 1.0e-4;
+/// Coordinates nearer than this fraction of the drawing's size are one: a tenth of a cell in the largest layout.
+const SAME_FRACTION: f64 = 1.0e-4;
 
-/// How much a wall may lean, as a part of its length.
+/// How much a wall may lean, as a fraction of its length.
 const LEAN: f64 = 0.01;
 
 /// The narrowest gap between walls is at most this many cells.
@@ -129,16 +129,18 @@ impl Grid {
             };
             size = if size < high - low { high - low } else { size };
         }
-        values.iter_mut().for_each(|values| values.dedup_by(|next, kept| *next - *kept <= SAME_PART * size));
+        values
+            .iter_mut()
+            .for_each(|values| values.dedup_by(|next, kept| *next - *kept <= SAME_FRACTION * size));
         let corner = [values[0][0], values[1][0]];
         let extents = [0, 1].map(|axis| values[axis][values[axis].len() - 1] - corner[axis]);
         // One size for both axes; where there is none, the drawing is stretched, or no two walls are one cell apart, or what
         // looks like rounding is none.
         let [x, y] = [0, 1].map(|axis| &values[axis][..]);
         let both = |divisor, rounding| cell_size(&[x, y], divisor, rounding).map(|cell| [cell, cell]);
-        let each = || Some([cell_size(&[x], 1, ROUNDING_PART)?, cell_size(&[y], 1, ROUNDING_PART)?]);
-        let cell = both(1, ROUNDING_PART).or_else(each);
-        let cell = cell.or_else(|| (2..=MAX_DIVISOR).find_map(|divisor| both(divisor, ROUNDING_PART)));
+        let each = || Some([cell_size(&[x], 1, ROUNDING_FRACTION)?, cell_size(&[y], 1, ROUNDING_FRACTION)?]);
+        let cell = both(1, ROUNDING_FRACTION).or_else(each);
+        let cell = cell.or_else(|| (2..=MAX_DIVISOR).find_map(|divisor| both(divisor, ROUNDING_FRACTION)));
         let cell = cell.or_else(|| both(1, 0.0)).ok_or(SvgError::NoGrid { line: first })?;
         let n_cells = [0, 1].map(|axis| nearest(extents[axis] / cell[axis]));
         if n_cells.contains(&0) {
@@ -191,7 +193,7 @@ impl Grid {
 }
 
 /// The narrowest gap between values, divided: `None` unless all distances from the first value, on each axis, are multiples
-/// of that. Gaps below `rounding`, a part of the widest, do not count. Values ascend and differ.
+/// of that. Gaps below `rounding`, a fraction of the widest, do not count. Values ascend and differ.
 fn cell_size(axes: &[&[f64]], divisor: usize, rounding: f64) -> Option<f64> {
     let gaps = || axes.iter().flat_map(|values| values.windows(2)).map(|pair| pair[1] - pair[0]);
     let widest_gap = gaps().reduce(greater)?;
@@ -296,7 +298,7 @@ impl Walls {
     }
 }
 
-/// The cells of a drawn solution, which must be a shortest way; an end on the outer wall must be in a door.
+/// The cells of a drawn solution, which must be a shortest path; an end on the outer wall must be in a door.
 fn checked_solution(chain: &Chain, grid: &Grid, layout: &Layout) -> Result<Vec<usize>, SvgError> {
     let through_wall = |[x, y]: [f64; 2]| SvgError::SolutionThroughWall { line: chain.line, x, y };
     let (width, height) = (layout.width(), layout.height());
@@ -329,8 +331,8 @@ fn checked_solution(chain: &Chain, grid: &Grid, layout: &Layout) -> Result<Vec<u
             cells.push(y * width + x);
         }
     }
-    let n_shortest = cells.first().zip(cells.last()).and_then(|(from, to)| layout.shortest_way(*from, *to));
-    let n_shortest = n_shortest.map_or(0, |way| way.len());
+    let n_shortest = cells.first().zip(cells.last()).and_then(|(from, to)| layout.shortest_path(*from, *to));
+    let n_shortest = n_shortest.map_or(0, |path| path.len());
     if cells.len() != n_shortest {
         return Err(SvgError::SolutionLonger { line: chain.line, n_cells: cells.len(), n_shortest });
     }

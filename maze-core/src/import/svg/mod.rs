@@ -108,7 +108,7 @@ pub enum SvgError {
     /// No lines.
     #[error("no walls: expected lines or areas that are painted and seen")]
     NoWalls,
-    /// What is drawn is the way and not the wall.
+    /// What is drawn is the path and not the wall.
     #[error(
         "draws the passages, not the walls (nothing is drawn along {n_open} of the {n_border} cells at the border): expected \
          walls, as mazegenerator.net writes them by default"
@@ -176,16 +176,16 @@ pub enum SvgError {
         /// After all transforms.
         y: f64,
     },
-    /// The drawn solution goes another way than ours.
+    /// The drawn solution is another path than ours.
     #[error(
-        "line {line}: the solution line is {n_cells} cells long, the shortest way between its ends {n_shortest}"
+        "line {line}: the solution line is {n_cells} cells long, the shortest path between its ends {n_shortest}"
     )]
     SolutionLonger {
         /// Counted from 1.
         line: usize,
         /// Of the line.
         n_cells: usize,
-        /// Of the shortest way.
+        /// Of the shortest path.
         n_shortest: usize,
     },
 }
@@ -195,7 +195,7 @@ pub enum SvgError {
 pub struct SvgMaze {
     /// Cells, walls and doors.
     pub layout: Layout,
-    /// The cells (`y * width + x`) of the solution drawn in the file, which is a shortest way, from start to goal.
+    /// The cells (`y * width + x`) of the solution drawn in the file, which is a shortest path, from start to goal.
     pub solution: Option<Vec<usize>>,
     /// Width and height of a cell in the file's units.
     pub cell: [f64; 2],
@@ -225,7 +225,7 @@ impl SvgMaze {
 }
 
 /// The maze of an SVG of equal cells with lines between them. The cell's size and the corner are found from the lines; what
-/// else is in the file (title, description, texts, a background, areas and dots as marks) is not looked at.
+/// else is in the file (title, description, texts, a background, areas and dots as marks) is not read.
 ///
 /// # Errors
 /// With the line where there is one, and by name for the other kinds of maze that mazegenerator.net makes.
@@ -303,9 +303,9 @@ impl SvgPlan {
             Self::Cells(SvgMaze { layout, cell: [cell_x, cell_y], solution, ends, .. }) => {
                 let mut found =
                     format!("{} x {} cells of {cell_x} x {cell_y}", layout.width(), layout.height());
-                if let Some(way) = solution {
+                if let Some(path) = solution {
                     found +=
-                        &format!("; the solution drawn in it, {} cells long, is a shortest way", way.len());
+                        &format!("; the solution drawn in it, {} cells long, is a shortest path", path.len());
                 }
                 found + &painted::spot_words(*ends)
             }

@@ -6,16 +6,16 @@ use super::style::Rgb;
 use crate::layout::blocks::Blocks;
 use crate::physics::numbers::{greater, lesser};
 
-/// Edges nearer than this part of the drawing's size are one.
-const SAME_PART: f64 = 1.0e-5;
+/// Edges nearer than this fraction of the drawing's size are one.
+const SAME_FRACTION: f64 = 1.0e-5;
 
-/// How much a wall may lean, as a part of its length.
+/// How much a wall may lean, as a fraction of its length.
 const LEAN: f64 = 0.01;
 
-/// Part of the walls' length that may be slanted decoration.
+/// Fraction of the walls' length that may be slanted decoration.
 const MAX_SLANTED: f64 = 0.02;
 
-/// A round mark of less than this part of the drawing's size is decoration.
+/// A round mark of less than this fraction of the drawing's size is decoration.
 const MAX_ROUND: f64 = 0.1;
 
 /// Colours whose channels differ by at most this are walls of one kind, such as black and dark grey.
@@ -25,7 +25,7 @@ const SAME_WALLS: u8 = 64;
 const MAX_CELLS: usize = 1 << 22;
 const MAX_PAINTED: usize = 1 << 27;
 
-/// A spot that is start or goal is at most this part of the drawing's size.
+/// A spot that is start or goal is at most this fraction of the drawing's size.
 const MAX_SPOT: f64 = 0.2;
 
 /// What was found in a drawing.
@@ -234,7 +234,7 @@ impl Plan {
             let points = areas.iter().flat_map(|area| area.rings.iter().flatten());
             let mut values: Vec<f64> = points.map(|point| point[axis]).collect();
             values.sort_by(f64::total_cmp);
-            values.dedup_by(|next, kept| *next - *kept <= SAME_PART * size);
+            values.dedup_by(|next, kept| *next - *kept <= SAME_FRACTION * size);
             values
         });
         let [n_x, n_y] = [0, 1].map(|axis| lines[axis].len().saturating_sub(1));

@@ -11,7 +11,7 @@ use svgtypes::Color;
 const MAX_SHEET: usize = 1 << 16;
 const MAX_MATCHES: usize = 1 << 26;
 
-/// Paint that lets more than this part of the ground through is not seen.
+/// Paint that lets more than this fraction of the ground through is not seen.
 const LEAST_OPACITY: f64 = 0.1;
 
 /// A colour on white paper.

@@ -122,11 +122,11 @@ fn the_size_of_a_cell_is_the_one_that_all_gaps_are_multiples_of() {
 fn written_and_read_again_it_is_the_same_with_the_same_lines() {
     for (width, height, seed) in [(1, 2, 1), (2, 1, 1), (7, 5, 3), (20, 20, 4), (200, 200, 5)] {
         let layout = recursive_backtracker(width, height, seed).unwrap().with_doors_top_and_bottom();
-        let way = layout.shortest_way((height - 1) * width + (width - 1) / 2, width / 2).unwrap();
-        let text = export::svg::write(&layout, Some(&way), "a <b> & c");
+        let path = layout.shortest_path((height - 1) * width + (width - 1) / 2, width / 2).unwrap();
+        let text = export::svg::write(&layout, Some(&path), "a <b> & c");
         let maze = loaded(&text);
         assert_eq!((&maze.layout, maze.cell, maze.corner), (&layout, [16.0; 2], [2.0; 2]));
-        assert_eq!(maze.solution.as_ref(), Some(&way));
+        assert_eq!(maze.solution.as_ref(), Some(&path));
         assert_eq!(export::svg::write(&maze.layout, maze.solution.as_deref(), "a <b> & c"), text);
     }
 }
@@ -151,7 +151,7 @@ fn the_drawn_solution_must_be_a_shortest_way() {
     let there_and_back = with(&SOLUTION.replace("26,26 26,34", "26,26 26,10 26,26 26,34"));
     assert_eq!(
         message(&there_and_back),
-        "line 12: the solution line is 5 cells long, the shortest way between its ends 3"
+        "line 12: the solution line is 5 cells long, the shortest path between its ends 3"
     );
     assert!(
         message(&with(&SOLUTION.replace("26,26", "26,29"))).starts_with("line 12: (26, 29) lies on no grid")

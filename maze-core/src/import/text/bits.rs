@@ -112,7 +112,7 @@ fn orders() -> impl Iterator<Item = Bits> {
     all.filter(|bits| bits.iter().fold(0, |sum, bit| sum | bit) == 15)
 }
 
-/// Start, goal and way as some files give them behind the cells: two lines `x,y` from the upper left, and one of the letters N,
+/// Start, goal and path as some files give them behind the cells: two lines `x,y` from the upper left, and one of the letters N,
 /// E, S and W.
 pub(super) struct Trailer {
     pub(super) ends: [Option<End>; 2],
@@ -122,14 +122,14 @@ pub(super) struct Trailer {
 /// Reads the lines behind the cells.
 ///
 /// # Errors
-/// Other lines, and a way that does not lead from the one to the other.
+/// Other lines, and a path that does not lead from the one to the other.
 pub(super) fn read_trailer(lines: &[super::grid::Line], sides: &Sides) -> Result<Trailer, TextError> {
     let filled: Vec<_> = lines.iter().filter(|line| !line.is_blank()).collect();
     let none = Trailer { ends: [None; 2], places: [None; 2] };
-    let (start, goal, way) = match filled.as_slice() {
+    let (start, goal, path) = match filled.as_slice() {
         [] => return Ok(none),
         [start, goal] => (start, goal, None),
-        [start, goal, way] => (start, goal, Some(way)),
+        [start, goal, path] => (start, goal, Some(path)),
         [.., line] => return Err(TextError::Trailer { line: line.number }),
     };
     let pair = |line: &super::grid::Line| {
@@ -144,8 +144,8 @@ pub(super) fn read_trailer(lines: &[super::grid::Line], sides: &Sides) -> Result
     let is_inside =
         |cells: &[[usize; 2]; 2]| cells.iter().all(|[x, y]| *x < sides.width && *y < sides.height);
     let leads = |[from, to]: &[[usize; 2]; 2]| {
-        let Some(way) = way else { return true };
-        let mut steps = way.content.chars();
+        let Some(path) = path else { return true };
+        let mut steps = path.content.chars();
         let end = steps
             .try_fold(*from, |cell, step| sides.neighbour(cell, "NESW".find(step.to_ascii_uppercase())?));
         end == Some(*to)
@@ -154,7 +154,7 @@ pub(super) fn read_trailer(lines: &[super::grid::Line], sides: &Sides) -> Result
     let turned = given.map(|[x, y]| [y, x]);
     let ends = [given, turned].into_iter().find(|ends| is_inside(ends) && leads(ends));
     let Some(ends) = ends else {
-        let line = way.filter(|_| is_inside(&given)).unwrap_or(start);
+        let line = path.filter(|_| is_inside(&given)).unwrap_or(start);
         return Err(TextError::Trailer { line: line.number });
     };
     let places = [start, goal].map(|line| Some(Place { line: line.number, column: 1 }));

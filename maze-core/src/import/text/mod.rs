@@ -226,7 +226,7 @@ pub enum TextError {
     },
     /// Something behind the cells.
     #[error(
-        "line {line}: expected start and goal as `x,y` within the maze, and a way of N, E, S and W between them"
+        "line {line}: expected start and goal as `x,y` within the maze, and a path of N, E, S and W between them"
     )]
     Trailer {
         /// Of the line.

@@ -6,7 +6,7 @@ use super::{TextError, TextOptions};
 /// Most signs of which every combination is tried; files have two or three.
 const MAX_UNDECIDED: usize = 5;
 
-/// Most cells times combinations that are looked at: a second or two.
+/// Most cells times combinations that are tried: a second or two.
 const MAX_LOOKS: usize = 1 << 26;
 
 /// Signs that draw a wall, or free space, wherever they are used in that sense in most files.
@@ -151,15 +151,15 @@ fn decide(
     if let Some(cell) = undecided.iter().find(is_hole).and_then(|sign| first_cell(grid, *sign)) {
         return Err(TextError::Hole { place: grid.place(cell) });
     }
-    // What has no place in any custom is told first: it may be a slip of the pen.
+    // What fits no convention is reported first: it may be a slip of the pen.
     let unknown = |index: &usize| {
         let (text, n) = (grid.signs[undecided[*index]].as_str(), counts[undecided[*index]]);
         let is_known_otherwise =
             custom.iter().any(is_strict) && (has_blanks || custom.iter().any(|value| *value < 0));
         custom[*index] == 0 && is_known_otherwise && (n == 1 || letter(text).is_some_and(char::is_alphabetic))
     };
-    let n_looks = grid.cells.len().saturating_mul(1 << undecided.len().min(MAX_UNDECIDED));
-    let is_too_much = MAX_UNDECIDED < undecided.len() || MAX_LOOKS < n_looks;
+    let n_tried = grid.cells.len().saturating_mul(1 << undecided.len().min(MAX_UNDECIDED));
+    let is_too_much = MAX_UNDECIDED < undecided.len() || MAX_LOOKS < n_tried;
     if let Some(index) = (0..undecided.len()).find(unknown).or(is_too_much.then_some(0)) {
         let sign = undecided[index];
         let found = grid.signs[sign].clone();

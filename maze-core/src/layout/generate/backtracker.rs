@@ -3,7 +3,7 @@
 use super::{rng, unvisited_neighbour};
 use crate::layout::{Layout, LayoutSizeError};
 
-/// A perfect maze (one way between any two cells) with long winding corridors, by depth-first search from a corner.
+/// A perfect maze (one path between any two cells) with long winding corridors, by depth-first search from a corner.
 ///
 /// # Errors
 /// See [`Layout::walled`].

@@ -14,7 +14,7 @@ pub struct EllerRow {
     pub north: Vec<bool>,
 }
 
-/// The rows of a perfect maze, made one at a time (M. Eller, 1982; told by J. Buck, "Mazes for Programmers", 2015).
+/// The rows of a perfect maze, made one at a time (M. Eller, 1982; described by J. Buck, "Mazes for Programmers", 2015).
 ///
 /// Holds a few numbers a column, however many rows there are: what has been given out is not needed any more.
 #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! The growing tree: where the maze grows next decides what it looks like.
+//! The growing tree: where the maze grows next decides its character.
 
 use super::{below, rng, unvisited_neighbour};
 use crate::layout::{Layout, LayoutSizeError};
@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 
 /// A perfect maze that grows from its middle, each time from one of its cells that still has a free neighbour:
 ///
-/// - in `elitism` of 100 cases from the oldest cell, so that the ways from the middle are direct and the solution is short
+/// - in `elitism` of 100 cases from the oldest cell, so that the paths from the middle are direct and the solution is short
 ///   (at 100 nothing is left for river to decide);
 /// - else in `river` of 100 cases from the newest cell, so that a corridor runs on for as long as it can, and dead ends are
 ///   few and long;

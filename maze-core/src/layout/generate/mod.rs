@@ -1,4 +1,4 @@
-//! Seeded generators: the same maze for the same seed, everywhere and for ever.
+//! Seeded generators: the same maze for the same seed, on every platform and in every version.
 
 mod backtracker;
 mod braid;
@@ -17,7 +17,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::fmt::{Display, Formatter};
 use std::str::FromStr;
 
-/// How a maze is made. Every one of them makes a perfect maze: one way between any two cells.
+/// How a maze is made. Every one of them makes a perfect maze: one path between any two cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Algorithm {
     /// Depth-first search: long winding corridors, few dead ends.

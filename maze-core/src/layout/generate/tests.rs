@@ -25,7 +25,7 @@ fn all_are_joined(layout: &Layout) -> bool {
     reached.into_iter().all(|reached| reached)
 }
 
-/// One passage less than cells, and all reached: exactly one way between any two cells.
+/// One passage less than cells, and all reached: exactly one path between any two cells.
 fn is_perfect(layout: &Layout) -> bool {
     layout.n_passages() == layout.width * layout.height - 1 && all_are_joined(layout)
 }
@@ -125,13 +125,13 @@ fn wilson_draws_every_tree_of_a_3x3_grid_as_often_and_the_others_do_not() {
     }
 }
 
-/// Mean over 40 mazes of 30x30 cells, from one end of the longest way to the other.
+/// Mean over 40 mazes of 30x30 cells, from one end of the longest path to the other.
 fn mean_of(elitism: u8, river: u8, value: impl Fn(&Metrics) -> f64) -> f64 {
     let of_seed = |seed| {
         let recipe = Recipe { elitism, river, ..Recipe::new(30, 30, Algorithm::GrowingTree, seed) };
-        let ways = CorridorGraph::of_layout(&recipe.layout().unwrap());
-        let [start, goal] = ways.ends().unwrap();
-        value(&Metrics::new(&ways, start, goal).unwrap())
+        let graph = CorridorGraph::of_layout(&recipe.layout().unwrap());
+        let [start, goal] = graph.ends().unwrap();
+        value(&Metrics::new(&graph, start, goal).unwrap())
     };
     (0..40).map(of_seed).sum::<f64>() / 40.0
 }
@@ -140,7 +140,7 @@ const SETTINGS: [u8; 5] = [0, 25, 50, 75, 100];
 
 #[test]
 fn more_elitism_makes_the_solution_shorter() {
-    // With river 0 the ways are nearly direct from the beginning.
+    // With river 0 the paths are nearly direct from the beginning.
     for river in [50, 75, 100] {
         let lengths = SETTINGS.map(|elitism| mean_of(elitism, river, |metrics| metrics.solution_length));
         assert!(lengths.is_sorted_by(|a, b| b < a), "river {river}: {lengths:?}");
@@ -167,7 +167,7 @@ fn eller_streams_ten_thousand_rows_of_a_perfect_maze() {
         for x in 0..width {
             let cell = y * width + x;
             for (open, next) in [(row.east[x], cell + 1), (row.north[x], cell + width)] {
-                assert!(!open || parts.join(cell, next), "row {y}: a second way between two cells");
+                assert!(!open || parts.join(cell, next), "row {y}: a second path between two cells");
                 n_passages += usize::from(open);
             }
         }

@@ -189,7 +189,7 @@ mod tests {
 
     #[test]
     fn closed_form_first_bounce_head_on() {
-        // Without gravity: v' = -e v, and the ball is outside the wall by no more than one tick's way.
+        // Without gravity: v' = -e v, and the ball is outside the wall by no more than one tick's displacement.
         let mut engine = engine(&[WALL], ball(0.0, 0.0, 3.0, 0.5));
         let mut hits = 0;
         for _ in 0..60 {
@@ -198,7 +198,7 @@ mod tests {
         let after = engine.ball();
         assert_eq!(hits, 1);
         assert_eq!(after.velocity, Vector2::new(-0.8 * 3.0, 0.5));
-        // The exact bounce happens at t = (5 - r) / 3; the method loses less than a tick's way in and out.
+        // The exact bounce happens at t = (5 - r) / 3; the method loses less than a tick's displacement in and out.
         let t_hit = (5.0 - 0.35) / 3.0;
         let exact = (5.0 - 0.35) - 2.4 * (60.0 * Published::TICK_S - t_hit);
         assert!((after.position.x - exact).abs() <= (3.0 + 2.4) * Published::TICK_S, "{}", after.position.x);
@@ -208,7 +208,7 @@ mod tests {
     #[test]
     fn closed_form_first_bounce_of_a_fall_reaches_e_squared_of_the_height() {
         // Height h above contact, acceleration a: the exact apex of the first bounce is e² h. Explicit Euler reaches the wall
-        // faster by up to one tick's gain in speed, a dt, and the push-out gives back up to one tick's way: both first order.
+        // faster by up to one tick's gain in speed, a dt, and the push-out gives back up to one tick's displacement: both first order.
         let (height, acceleration) = (4.0, 3.0);
         let mut engine = engine(&[WALL], ball(5.0 - 0.35 - height, 0.0, 0.0, 0.0));
         let mut bounced = false;

@@ -6,8 +6,8 @@ use std::ops::Range;
 /// Coordinates of one axis, ascending: offsets of the planes across it, starts and ends of the planes along it.
 ///
 /// Planes keep the ranks of their coordinates here, so that they are small and compare as whole numbers; a search asks
-/// once where its own numbers stand. That is a bisection which a directory shortens: the span is split into equal
-/// buckets, and the directory knows where each begins, so that a bisection looks at one bucket instead of the whole list:
+/// once where its own numbers stand. That is a bisection which a bucket index shortens: the span is split into equal
+/// buckets, and the bucket index knows where each begins, so that a bisection searches one bucket instead of the whole list:
 /// at one number where they are evenly spread, as a maze's are; at up to all of them where they are not, and then it is
 /// the plain bisection. It is an accelerator only: placing a number is a subtraction, a multiplication and a rounding,
 /// each of which keeps the order of its arguments under rounding, so what stands in a lower bucket is lower, and the
@@ -21,7 +21,7 @@ pub(super) struct Coordinates {
     last_bucket: f64,
     origin: f64,
     buckets_per_unit: f64,
-    /// Whether no bucket holds more than one value: then one comparison tells the rank.
+    /// Whether no bucket holds more than one value: then one comparison gives the rank.
     is_single: bool,
 }
 

@@ -4,7 +4,7 @@ use super::SortedPlanes;
 use super::group::{End, Group, Interval, n_32};
 use crate::physics::wall::Facing;
 
-/// Looks up the intervals of one group where they meet a line that moves up along its rows.
+/// Finds the intervals of one group where they meet a line that moves up along its rows.
 struct Cursors<'a> {
     group: &'a Group,
     /// For each row the first interval that does not end below the line.

@@ -1,4 +1,4 @@
-//! The faces that look one way: rows of intervals, as ranks of coordinates.
+//! The faces of one facing: rows of intervals, as ranks of coordinates.
 
 use std::ops::Range;
 
@@ -26,7 +26,7 @@ impl End {
     }
 }
 
-/// Part of a row that is wall.
+/// A stretch of a row that is wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Interval {
     pub(super) start: End,
@@ -55,7 +55,7 @@ impl Row {
     }
 }
 
-/// The faces that look one way.
+/// The faces of one facing.
 /// Invariant: offsets ascending; a row's intervals are disjoint, do not touch, and ascend.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Group {
@@ -129,7 +129,7 @@ impl Group {
         }
     }
 
-    /// Gives each row of more than a few intervals a directory.
+    /// Gives each row of more than a few intervals a bucket index.
     fn list_buckets(&mut self) {
         for row in &mut self.rows {
             let intervals = &self.intervals[row.range()];

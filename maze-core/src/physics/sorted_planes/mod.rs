@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 pub use nearby::Clearance;
 use std::ops::Range;
 
-/// Searches look this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
+/// Searches reach this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
 pub(crate) const WIDENED: f64 = 1.0 + 1.0e-6;
 
 /// Most planes of one facing: an axis has at most six coordinates for each, whose ranks are counted in 31 bits.
@@ -24,9 +24,9 @@ const MAX_PLANES: usize = 1 << 28;
 /// so the first candidate need not be the nearest; and a test of start and end against the ball's centre forgets its
 /// extent. Here a group is a list of rows of equal offset, each with disjoint sorted intervals: bisect for the first row
 /// in reach, walk the rows in the direction of motion, bisect in each for the interval. O(log n) a row within reach, and
-/// O(1) where offsets and interval ends are evenly spread: directories tell each bisection where to begin.
+/// O(1) where offsets and interval ends are evenly spread: bucket indexes give each bisection its start.
 ///
-/// A plane takes 8 bytes and its part of its row's directory about 2: start and end are kept as ranks among the coordinates
+/// A plane takes 8 bytes and its share of its row's bucket index about 2: start and end are kept as ranks among the coordinates
 /// of their axis, which a maze uses again and again. Where every plane has coordinates and a row of its own it is some 100.
 #[derive(Clone, Debug)]
 pub struct SortedPlanes {
@@ -78,9 +78,9 @@ impl SortedPlanes {
         Ok(sorted)
     }
 
-    /// The same planes searched by bisection alone: what the directories are measured and tested against.
+    /// The same planes searched by bisection alone: what the bucket indexes are measured and tested against.
     #[must_use]
-    pub fn without_directories(mut self) -> Self {
+    pub fn without_bucket_index(mut self) -> Self {
         self.axes.iter_mut().for_each(|axis| axis.list_buckets(1));
         self.groups.iter_mut().for_each(Group::drop_buckets);
         self
@@ -131,7 +131,7 @@ impl SortedPlanes {
 
     /// The first plane of one group, met in its direction of motion, whose closest point lies nearer than `radius`.
     ///
-    /// Rows are met in the direction of motion: ascending offsets for faces that look towards minus (the ball moves towards
+    /// Rows are met in the direction of motion: ascending offsets for faces whose normals point towards minus (the ball moves towards
     /// plus), descending otherwise. A face that the centre has passed by less than the radius still counts. Within a row the
     /// interval nearest to the centre wins, the lower one on a tie.
     /// Needs a finite `centre` and `radius`. O(log n) for each row that lies within reach.
@@ -195,7 +195,7 @@ impl PartialEq for SortedPlanes {
     }
 }
 
-/// A row, to look for planes in.
+/// A row, to find planes in.
 #[derive(Clone, Copy)]
 pub(crate) struct RowView<'a> {
     facing: Facing,
@@ -280,7 +280,7 @@ mod tests {
 
     #[test]
     fn search_fault_1_of_several_offsets_in_reach_the_first_in_the_direction_of_motion_is_found() {
-        // Three faces within one radius; the middle of the sorted list, where a bisection looks first, is not the nearest.
+        // Three faces within one radius; the middle of the sorted list, where a bisection probes first, is not the nearest.
         let planes = sorted(&[minus_x(0.1, -1.0, 1.0), minus_x(0.2, -1.0, 1.0), minus_x(0.3, -1.0, 1.0)]);
         let hit = planes.first_overlap(Facing::MinusX, Vector2::zeros(), 0.35).unwrap();
         assert_eq!(hit.offset, 0.1);

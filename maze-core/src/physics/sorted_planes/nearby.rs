@@ -30,7 +30,7 @@ impl Nearest {
         let squared = squared_distance(&plane, centre);
         let rank = |(squared, plane): (f64, Plane)| (squared, plane.facing, plane.offset);
         let is_nearer = |known: (f64, Plane)| match rank((squared, plane)).partial_cmp(&rank(known)) {
-            // Distances that round to the same number: in a row the places of the planes tell.
+            // Distances that round to the same number: in a row the places of the planes decide.
             Some(Ordering::Equal) => {
                 plane.compare_distance(&known.1, centre[1 - plane.facing.axis()]).is_lt()
             }
@@ -69,7 +69,7 @@ impl SortedPlanes {
         })
     }
 
-    /// Whether one of these planes is of some kind: what the exact engine asks after many a tick, with half of the look-ups.
+    /// Whether one of these planes is of some kind: what the exact engine asks after many a tick, with half of the probes.
     pub(crate) fn any_within(
         &self,
         centre: Vector2<f64>,
@@ -101,7 +101,7 @@ impl SortedPlanes {
         })
     }
 
-    /// The plane nearest to a point, whichever way it looks; `None` when there is none at all.
+    /// The plane nearest to a point, whichever its facing; `None` when there is none at all.
     ///
     /// Of equally near planes the first in the order of facing and offset, then the lower one. Needs a finite `centre`.
     /// O(log n) for each row that is nearer than the plane found.

@@ -1,9 +1,9 @@
-//! The parts of walls that a circle can touch.
+//! Contact features: what of a wall a circle can touch.
 
 use crate::physics::wall::Plane;
 use nalgebra::Vector2;
 
-/// A part of a wall that a circle can touch.
+/// What of a wall a circle can touch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// A face, within its extent.

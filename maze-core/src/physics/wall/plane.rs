@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 use std::cmp::Ordering;
 
-/// The direction in which a face looks, out of its wall. The report colours them red, green, cyan and blue.
+/// The direction of a face's outward normal. The report colours them red, green, cyan and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Facing {
     /// Red: stops a ball that moves towards -x.
@@ -66,7 +66,7 @@ impl Facing {
         point
     }
 
-    /// The one or two facings that a ball of this velocity can run into: at least half of all planes are never looked at.
+    /// The one or two facings that a ball of this velocity can run into: at least half of all planes are never visited.
     pub fn opposing(velocity: Vector2<f64>) -> impl Iterator<Item = Self> {
         Self::ALL.into_iter().filter(move |facing| velocity[facing.axis()] * facing.sign() < 0.0)
     }
@@ -74,11 +74,11 @@ impl Facing {
 
 /// A wall face: the points with `offset` along the normal's axis and `start..=end` along the other.
 ///
-/// It stops a ball from its front only; from behind a ball passes. So give every wall all its faces: a block is four planes that
-/// look outwards, a wall without thickness two at one place that look in opposite directions.
+/// It stops a ball from its front only; from behind a ball passes. So give every wall all its faces: a block is four planes whose
+/// normals point outwards, a wall without thickness two at one place with opposite normals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// Where it looks.
+    /// Its outward normal.
     pub facing: Facing,
     /// Coordinate along the normal's axis (maze units).
     pub offset: f64,
@@ -150,7 +150,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_faces_that_oppose_the_velocity_are_looked_at() {
+    fn only_faces_that_oppose_the_velocity_are_visited() {
         let names = |x, y| Facing::opposing(Vector2::new(x, y)).map(Facing::name).collect::<Vec<_>>();
         assert_eq!(names(-1.0, 0.0), ["+x"]);
         assert_eq!(names(1.0, 2.0), ["-x", "-y"]);

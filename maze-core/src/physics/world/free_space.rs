@@ -7,7 +7,7 @@ use crate::physics::wall::{Facing, Plane};
 use nalgebra::Vector2;
 
 /// How far the box may extend in the direction of motion (radii): as far as a slow ball rolls in some thirty ticks. A larger one
-/// lasts longer, and more planes must be looked at to make it.
+/// lasts longer, and more planes must be visited to make it.
 const EXTENT_AHEAD: f64 = 3.0;
 
 /// How far it may extend against the direction of motion (radii), for a ball that turns.

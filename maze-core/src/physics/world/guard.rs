@@ -39,7 +39,7 @@ impl<O: Observer + ?Sized> Events<'_, O> {
         deepest_of_all
     }
 
-    /// Checks the state that is about to be returned by a plain query that knows nothing of contacts and events: a ball that
+    /// Checks the state that is about to be returned by a plain query that uses neither contacts nor events: a ball that
     /// came from the front (it was at `from` at the start of the tick), and is deeper in a face than it may be, is put outside, and
     /// that is reported.
     pub(super) fn guard(&mut self, from: Vector2<f64>) {
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_comes_from_behind_a_face_passes_it() {
-        // Along a wall that supports it, so that the guard looks at every tick.
+        // Along a wall that supports it, so that the guard checks every tick.
         let floor = Plane { facing: Facing::PlusY, offset: 0.0, start: -5.0, end: 5.0 };
         let wall = Plane { facing: Facing::PlusX, offset: -0.35, start: -5.0, end: 5.0 };
         let planes = Arc::new(SortedPlanes::new([floor, wall]).unwrap());

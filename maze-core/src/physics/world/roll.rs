@@ -57,7 +57,7 @@ impl Pivot<'_> {
         Ball { position: self.point + normal * self.radius, velocity: tangent(normal) * speed }
     }
 
-    /// Whether a ball leaves the point: a.n + v²/r >= 0, for longer than rounding tells.
+    /// Whether a ball leaves the point: a.n + v²/r >= 0, for longer than rounding can decide.
     fn lifts_off(&self, normal: Vector2<f64>, speed: f64) -> bool {
         let outward = self.acceleration.dot(&normal) + speed * speed / self.radius;
         // On the way up this falls at a rate. A ball that would rise by less than a graze until it is pressed again stays: the
@@ -68,7 +68,7 @@ impl Pivot<'_> {
         0.0 <= outward && !stays
     }
 
-    /// Rolls one way until the next event, for `left_s` at most.
+    /// Rolls in one direction until the next event, for `left_s` at most.
     pub(super) fn roll(&self, normal: Vector2<f64>, speed: f64, left_s: f64) -> Roll {
         let ended = |end| Roll { normal, speed, time_s: 0.0, end };
         if self.lifts_off(normal, speed) {
@@ -110,7 +110,7 @@ impl Pivot<'_> {
         order(one) < order(other)
     }
 
-    /// What the ball can touch on its way.
+    /// What the ball can touch on its direction.
     fn touches(&self, from: Vector2<f64>, arc: &Arc) -> impl Iterator<Item = Touch> {
         let reach = 2.0 * self.radius * WIDENED;
         let near = self.planes.faces_around(self.point, reach);
@@ -145,18 +145,18 @@ impl Pivot<'_> {
             return None;
         }
         let gap = self.radius * (from.dot(&outward) - level);
-        let way = tangent(from) * arc.side;
+        let direction = tangent(from) * arc.side;
         let feature = Feature::Face(plane);
-        let leaves = |along: f64, way: f64| {
-            along < plane.start && way <= 0.0
-                || plane.end < along && 0.0 <= way
-                || along == plane.start && way < 0.0
-                || along == plane.end && 0.0 < way
+        let leaves = |along: f64, direction: f64| {
+            along < plane.start && direction <= 0.0
+                || plane.end < along && 0.0 <= direction
+                || along == plane.start && direction < 0.0
+                || along == plane.end && 0.0 < direction
         };
         let is_over = |along: f64, slack: f64| plane.start - slack <= along && along <= plane.end + slack;
         if self.is_touched(gap, centre) {
             let along = centre[1 - axis];
-            if way.dot(&outward) <= 0.0 && is_over(along, 0.0) && !leaves(along, way[1 - axis]) {
+            if direction.dot(&outward) <= 0.0 && is_over(along, 0.0) && !leaves(along, direction[1 - axis]) {
                 return Some(Touch { along: arc.begin, normal: from, feature, distance: level });
             }
         }
@@ -167,8 +167,8 @@ impl Pivot<'_> {
         let level = lesser(level, 1.0);
         let normal = outward * level + tangent(outward) * (arc.side * ((1.0 - level) * (1.0 + level)).sqrt());
         let along = self.point[1 - axis] + self.radius * normal[1 - axis];
-        let way = tangent(normal) * arc.side;
-        (is_over(along, snap) && !leaves(along, way[1 - axis])).then_some(())?;
+        let direction = tangent(normal) * arc.side;
+        (is_over(along, snap) && !leaves(along, direction[1 - axis])).then_some(())?;
         Some(Touch { along: arc.ahead(normal)?, normal, feature, distance: level })
     }
 
@@ -185,7 +185,7 @@ impl Pivot<'_> {
         let direction = between / distance;
         let normal =
             direction * half - tangent(direction) * (arc.side * ((1.0 - half) * (1.0 + half)).sqrt());
-        // One that lies ahead is touched there, however near it is now: neighbours would hand the ball to each other.
+        // One that lies ahead is touched there, however near it is now: neighbours would pass the ball to each other.
         if let Some(along) = arc.ahead(normal) {
             return Some(Touch { along, normal, feature, distance });
         }

@@ -69,7 +69,7 @@ impl Search for BitGrid {
 }
 
 /// The cell in whose region a coordinate lies. Regions meet in the middle of passages and walls, and what can be touched
-/// from within half a wall beyond is looked at too: rounding moves no border that far.
+/// from within half a wall beyond is visited too: rounding moves no border that far.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not below 0")]
 fn cell_at(value: f64) -> usize {
     (((value - MIDDLE) * (1.0 / PITCH)) as i64).max(0) as usize
@@ -134,7 +134,7 @@ impl First<'_> {
             middle_line(cell[axis]) <= whole[axis].low && whole[axis].high <= middle_line(cell[axis] + 1)
         };
         if stays(0) && stays(1) {
-            self.look(grid, cell, whole, near, moves);
+            self.probe(grid, cell, whole, near, moves);
         } else if path.acceleration == Vector2::zeros() {
             self.walk(grid, cell, moves);
         } else {
@@ -144,7 +144,7 @@ impl First<'_> {
             // The box may reach beyond the maze.
             let [right, above] = [right, above].map(|cell| cell.min(4 * grid.n_across - 1));
             for cell in (below..=above).flat_map(|y| (left..=right).map(move |x| [x, y])) {
-                self.look(grid, cell, whole, self::near(cell, whole), moves);
+                self.probe(grid, cell, whole, self::near(cell, whole), moves);
             }
         }
     }
@@ -165,7 +165,7 @@ impl First<'_> {
             let to = from + velocity * until_s;
             let range =
                 [0, 1].map(|axis| Range { low: at[axis].min(to[axis]), high: at[axis].max(to[axis]) });
-            self.look(grid, cell, range, near(cell, range), moves);
+            self.probe(grid, cell, range, near(cell, range), moves);
             if end_s <= until_s || self.time_s <= until_s {
                 return;
             }
@@ -178,7 +178,7 @@ impl First<'_> {
     }
 
     /// What can be touched from within a cell and half of the passages that lead out of it.
-    fn look(&mut self, grid: &BitGrid, cell: [usize; 2], range: [Range; 2], near: u64, moves: u64) {
+    fn probe(&mut self, grid: &BitGrid, cell: [usize; 2], range: [Range; 2], near: u64, moves: u64) {
         if near == 0 {
             return;
         }

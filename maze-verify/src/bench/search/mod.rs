@@ -86,7 +86,7 @@ pub const CONTENDERS: [Contender; 13] = {
             Exact,
             planes::sorted,
         ),
-        contender("bisection alone", "the same without directories", Exact, planes::without_directories),
+        contender("bisection alone", "the same without bucket indexes", Exact, planes::without_bucket_index),
         contender("naive scan", "maze-core: sweep::first_impact_scan, every plane", Exact, planes::scan)
             .up_to(2_000),
         contender(
@@ -135,8 +135,10 @@ mod tests {
     fn the_exact_ones_agree_on_parabolas_over_several_cells_too() {
         let case = Case::new(9, 2).unwrap();
         let mut queries = case.random("", 2.0, 3000).queries;
-        for (index, pull) in super::super::case::turning_pulls().into_iter().cycle().take(3000).enumerate() {
-            queries[index].path.acceleration = pull * [0.5, 4.0, 30.0][index % 3];
+        for (index, acceleration) in
+            super::super::case::turning_accelerations().into_iter().cycle().take(3000).enumerate()
+        {
+            queries[index].path.acceleration = acceleration * [0.5, 4.0, 30.0][index % 3];
         }
         let exact = CONTENDERS.iter().filter(|contender| contender.agreement == Agreement::Exact);
         let answers = exact.map(|contender| {

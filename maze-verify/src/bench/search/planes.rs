@@ -31,8 +31,8 @@ pub(super) fn sorted(case: &Case) -> Result<Box<dyn Search>, BenchError> {
 }
 
 /// The same by bisection alone.
-pub(super) fn without_directories(case: &Case) -> Result<Box<dyn Search>, BenchError> {
-    let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_directories();
+pub(super) fn without_bucket_index(case: &Case) -> Result<Box<dyn Search>, BenchError> {
+    let planes = SortedPlanes::new(case.planes_in()).map_err(BenchError::set_up)?.without_bucket_index();
     Ok(Box::new(Planes { planes: Arc::new(planes), find: sweep::first_impact }))
 }
 
@@ -46,12 +46,12 @@ struct Published(Arc<SortedPlanes>);
 
 impl Search for Published {
     fn first_touch(&mut self, query: &Query) -> Option<f64> {
-        let way = query.mean_velocity() * query.until_s;
-        let length = way.norm();
+        let displacement = query.mean_velocity() * query.until_s;
+        let length = displacement.norm();
         let n_steps = if RADIUS < length { (length / SUBSTEP).ceil() } else { 1.0 };
         let overlaps = |part: f64| {
-            let centre = query.path.position + way * part;
-            let mut facings = Facing::opposing(way);
+            let centre = query.path.position + displacement * part;
+            let mut facings = Facing::opposing(displacement);
             facings.any(|facing| self.0.first_overlap(facing, centre, RADIUS).is_some())
         };
         let mut step = 1.0;

@@ -1,6 +1,6 @@
 //! Trees of boxes: rstar and bvh find what is near, maze-core's functions tell when it is touched.
 //!
-//! A long way is asked for piece by piece, so that what lies behind the first touch is not looked up.
+//! A long path is asked for piece by piece, so that what lies behind the first touch is not asked for.
 
 use super::{BenchError, Case, Query, Search};
 use crate::bench::case::{RADIUS, WallFace};
@@ -15,7 +15,7 @@ use rstar::{AABB, RTree};
 /// How far from the centre something can be that is touched; wider than any rounding.
 const REACH: f64 = RADIUS * (1.0 + 1.0e-6);
 
-/// Longest way whose box is looked up at once (units): about a corridor.
+/// Longest stretch whose box is asked for at once (units): about a corridor.
 const PIECE: f64 = 1.0;
 
 /// Lower left and upper right of a face.
@@ -23,7 +23,7 @@ fn ends(face: &WallFace) -> [Vector2<f64>; 2] {
     [face.plane.start, face.plane.end].map(|along| face.plane.facing.point(face.plane.offset, along))
 }
 
-/// The earliest touch, from what `near` finds in the box around each piece of the way.
+/// The earliest touch, from what `near` finds in the box around each piece of the path.
 fn first_touch(query: &Query, near: impl Fn([Vector2<f64>; 2], &mut dyn FnMut(&WallFace))) -> Option<f64> {
     let Query { path, until_s } = query;
     // A parabola strays this far from its chord.

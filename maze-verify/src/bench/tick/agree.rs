@@ -1,7 +1,7 @@
-//! Whether the balls of all contenders go the same way, for as long as that can be said.
+//! Whether the balls of all contenders follow the same path, for as long as that can be said.
 
 use super::super::agreement::{Agreement, Comparison};
-use super::super::case::turning_pulls;
+use super::super::case::turning_accelerations;
 use super::{Built, Course, Mover};
 use maze_core::Ball;
 use nalgebra::Vector2;
@@ -13,7 +13,7 @@ const N_TICKS: usize = 40;
 /// Balls that are compared, each at rest in another cell: 10⁴ positions.
 const N_BALLS: usize = 250;
 
-/// Positions of the exact engine itself, with directories and without, are compared for this many ticks on end.
+/// Positions of the exact engine itself, with bucket indexes and without, are compared for this many ticks on end.
 const N_TICKS_EXACT: usize = 10_000;
 
 /// Positions farther apart than this (units) count as different: a fifth of the ball's radius.
@@ -54,30 +54,30 @@ pub(super) fn compare_all(course: &Course, built: &mut [Built]) -> Vec<Compariso
 fn exact(found: &mut Comparison, course: &Course, [truth, given]: [&mut dyn Mover; 2]) {
     truth.place(course.starts[0]);
     given.place(course.starts[0]);
-    for pull in turning_pulls().into_iter().cycle().take(N_TICKS_EXACT) {
-        tick_both(found, [truth, given], pull * STRONG);
+    for acceleration in turning_accelerations().into_iter().cycle().take(N_TICKS_EXACT) {
+        tick_both(found, [truth, given], acceleration * STRONG);
     }
 }
 
-/// Strong enough to throw the ball about (a pull of 1 unit/s² times this).
+/// Strong enough to throw the ball about (a acceleration of 1 unit/s² times this).
 const STRONG: f64 = 5.0;
 
 /// Many balls, each from rest to its first bounce.
 fn first_bounces(found: &mut Comparison, course: &Course, [truth, given]: [&mut dyn Mover; 2]) {
-    let pulls = turning_pulls();
+    let accelerations = turning_accelerations();
     for (n, start) in course.case.scattered(N_BALLS).into_iter().map(Ball::at).enumerate() {
         truth.place(start);
         given.place(start);
         // Each in another direction.
-        for pull in pulls.iter().cycle().skip(n * 31 % pulls.len()).take(N_TICKS) {
-            tick_both(found, [truth, given], *pull);
+        for acceleration in accelerations.iter().cycle().skip(n * 31 % accelerations.len()).take(N_TICKS) {
+            tick_both(found, [truth, given], *acceleration);
         }
     }
 }
 
-fn tick_both(found: &mut Comparison, [truth, given]: [&mut dyn Mover; 2], pull: Vector2<f64>) {
-    truth.tick(pull);
-    given.tick(pull);
+fn tick_both(found: &mut Comparison, [truth, given]: [&mut dyn Mover; 2], acceleration: Vector2<f64>) {
+    truth.tick(acceleration);
+    given.tick(acceleration);
     let [truth, given] = [truth.ball(), given.ball()];
     found.note(truth == given, (truth.position - given.position).norm());
 }
@@ -92,8 +92,8 @@ mod tests {
     struct Shifted(Box<dyn Mover>, f64);
 
     impl Mover for Shifted {
-        fn tick(&mut self, pull: Vector2<f64>) {
-            self.0.tick(pull);
+        fn tick(&mut self, acceleration: Vector2<f64>) {
+            self.0.tick(acceleration);
         }
 
         fn n_balls(&self) -> usize {

@@ -9,13 +9,13 @@ mod movers;
 pub use movers::Mover;
 
 use super::agreement::{Agreement, Comparison};
-use super::case::{Case, TICK_S, spec, turning_pulls};
+use super::case::{Case, TICK_S, spec, turning_accelerations};
 use super::figures::{Figures, Group};
 use super::measure::{BenchError, Plan};
 use super::paired::{Runner, Series, time};
 use crate::engine::Walls;
 use maze_core::{Ball, BallSpec, Continuous, Engine, SortedPlanes};
-use movers::{boxes, crowd, exact, exact_on_2_threads, published, rapier, without_directories};
+use movers::{boxes, crowd, exact, exact_on_2_threads, published, rapier, without_bucket_index};
 use nalgebra::Vector2;
 use std::sync::Arc;
 use std::time::Duration;
@@ -30,7 +30,7 @@ const N_SCATTERED: usize = 4096;
 /// And as many as the question about many balls is about.
 const N_MANY: usize = 100_000;
 
-/// Ticks that scattered balls have behind them when they are first looked at: at rest in the middle of a cell none is near a
+/// Ticks that scattered balls have behind them when they are first compared: at rest in the middle of a cell none is near a
 /// wall, and later most are.
 const N_BEFORE: usize = 60;
 
@@ -57,7 +57,7 @@ pub struct Contender {
     pub name: &'static str,
     /// What it is.
     pub about: &'static str,
-    /// What is asked of the way its ball goes.
+    /// What is asked of the path of its ball.
     pub agreement: Agreement,
     /// Whether each wall is a collider of its own, which bounds the size of the maze.
     pub is_separate: bool,
@@ -82,9 +82,9 @@ const CONTINUOUS: Contender =
     contender(REFERENCE, "maze-core: the exact engine, the game's default", Agreement::Exact, exact);
 const BISECTION: Contender = contender(
     "continuous by bisection",
-    "the same without directories",
+    "the same without bucket indexes",
     Agreement::Exact,
-    without_directories,
+    without_bucket_index,
 );
 const PUBLISHED: Contender =
     contender("published", "maze-core: the report's engine", agree::REPORT, published);
@@ -97,7 +97,7 @@ const COMPOUND: Contender = contender(
 );
 const BROAD_PHASE: Contender = contender(
     "rapier3d broad phase",
-    "BroadPhaseBvh::update with the ball's collider moved along its way, a collider a wall",
+    "BroadPhaseBvh::update with the ball's collider moved along its path, a collider a wall",
     Agreement::OtherQuestion("pairs of boxes that meet; moves nothing"),
     boxes,
 )
@@ -202,11 +202,11 @@ impl<'a> Course<'a> {
     /// # Errors
     /// As [`rolling`].
     pub fn scattered(self, n: usize) -> Result<Self, BenchError> {
-        let pulls = turning_pulls();
+        let accelerations = turning_accelerations();
         let roll = |start| {
             let mut engine = self.exact(Ball::at(start))?;
-            for pull in pulls.iter().take(N_BEFORE) {
-                engine.tick(*pull).map_err(BenchError::set_up)?;
+            for acceleration in accelerations.iter().take(N_BEFORE) {
+                engine.tick(*acceleration).map_err(BenchError::set_up)?;
             }
             Ok(engine.ball())
         };
@@ -221,11 +221,11 @@ impl<'a> Course<'a> {
     }
 
     /// Hits in a tick of the first ball, on average over many.
-    fn hits_a_tick(&self, pulls: &[Vector2<f64>]) -> Result<f64, BenchError> {
+    fn hits_a_tick(&self, accelerations: &[Vector2<f64>]) -> Result<f64, BenchError> {
         let mut engine = self.exact(self.starts[0])?;
         let mut n_hits = 0;
-        for pull in pulls.iter().cycle().take(N_COUNTED) {
-            n_hits += engine.tick(*pull).map_err(BenchError::set_up)?.n_hits;
+        for acceleration in accelerations.iter().cycle().take(N_COUNTED) {
+            n_hits += engine.tick(*acceleration).map_err(BenchError::set_up)?.n_hits;
         }
         #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let each = f64::from(n_hits) / N_COUNTED as f64;
@@ -241,16 +241,16 @@ impl<'a> Course<'a> {
         &self,
         name: &'static str,
         built: Vec<Built>,
-        pulls: &[Vector2<f64>],
+        accelerations: &[Vector2<f64>],
     ) -> Result<Question, BenchError> {
         Ok(Question {
             name,
             n_planes: self.n_planes(),
-            hits_a_tick: Some(self.hits_a_tick(pulls)?),
+            hits_a_tick: Some(self.hits_a_tick(accelerations)?),
             comparisons: Vec::new(),
             entrants: built
                 .into_iter()
-                .map(|(contender, mover)| entrant(contender.name, mover, pulls))
+                .map(|(contender, mover)| entrant(contender.name, mover, accelerations))
                 .collect(),
         })
     }
@@ -262,27 +262,27 @@ type Built = (Contender, Box<dyn Mover>);
 /// Ticks that hits are counted in.
 const N_COUNTED: usize = 3330;
 
-fn entrant(name: &'static str, mover: Box<dyn Mover>, pulls: &[Vector2<f64>]) -> Entrant {
+fn entrant(name: &'static str, mover: Box<dyn Mover>, accelerations: &[Vector2<f64>]) -> Entrant {
     let n_balls = mover.n_balls();
-    Entrant { runner: Runner { name, run: in_turn(mover, pulls.to_vec()) }, n_balls }
+    Entrant { runner: Runner { name, run: in_turn(mover, accelerations.to_vec()) }, n_balls }
 }
 
-/// Ticks on under pull after pull, from the first again after the last.
-fn in_turn(mut mover: Box<dyn Mover>, pulls: Vec<Vector2<f64>>) -> Box<dyn FnMut(usize) -> f64> {
+/// Ticks on under acceleration after acceleration, from the first again after the last.
+fn in_turn(mut mover: Box<dyn Mover>, accelerations: Vec<Vector2<f64>>) -> Box<dyn FnMut(usize) -> f64> {
     let mut next = 0;
     Box::new(move |n| {
         let mut left = n;
         while 0 < left {
-            let end = pulls.len().min(next + left);
-            mover.tick_all(&pulls[next..end]);
+            let end = accelerations.len().min(next + left);
+            mover.tick_all(&accelerations[next..end]);
             left -= end - next;
-            next = if end == pulls.len() { 0 } else { end };
+            next = if end == accelerations.len() { 0 } else { end };
         }
         mover.ball().position.x
     })
 }
 
-/// One ball that rolls tick after tick under a pull that turns.
+/// One ball that rolls tick after tick under a acceleration that turns.
 ///
 /// # Errors
 /// An engine that refuses the maze or the ball.
@@ -292,7 +292,7 @@ pub fn rolling(course: &Course) -> Result<Question, BenchError> {
     for (_, mover) in &mut built {
         mover.place(course.starts[0]);
     }
-    Ok(Question { comparisons, ..course.ask(ROLLING_BALL, built, &turning_pulls())? })
+    Ok(Question { comparisons, ..course.ask(ROLLING_BALL, built, &turning_accelerations())? })
 }
 
 /// Balls all over the maze, ticked in turn: each finds the caches cold.
@@ -319,10 +319,10 @@ fn scattered(
 ) -> Result<Question, BenchError> {
     let course = course.scattered(n)?;
     let built = course.build(contenders)?;
-    Ok(Question { hits_a_tick: None, ..course.ask(name, built, &turning_pulls())? })
+    Ok(Question { hits_a_tick: None, ..course.ask(name, built, &turning_accelerations())? })
 }
 
-/// A ball that bounces without loss and without pull.
+/// A ball that bounces without loss and without acceleration.
 ///
 /// # Errors
 /// As [`rolling`].
@@ -354,7 +354,7 @@ pub fn growth(mazes: Vec<(Arc<SortedPlanes>, Vector2<f64>)>) -> Result<Question,
         let Some((name, _)) = SIZES.into_iter().find(|(_, sizes)| sizes.contains(&planes.len())) else {
             continue;
         };
-        entrants.push(entrant(name, movers::alone(planes, Ball::at(middle))?, &turning_pulls()));
+        entrants.push(entrant(name, movers::alone(planes, Ball::at(middle))?, &turning_accelerations()));
     }
     let name = "rolling tick as mazes grow";
     Ok(Question { name, n_planes, hits_a_tick: None, comparisons: Vec::new(), entrants })

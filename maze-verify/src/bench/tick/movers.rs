@@ -1,6 +1,6 @@
 //! What ticks balls: engines of ours, and rapier3d.
 
-use super::super::case::{TICK_S, spec, turning_pulls};
+use super::super::case::{TICK_S, spec, turning_accelerations};
 use super::super::measure::BenchError;
 use super::Course;
 use crate::engine::{RapierEngine, Walls};
@@ -16,18 +16,18 @@ const MOST_IN_WORLD: usize = 10_000;
 /// Most places that the broad phase is taken to in what counts as one tick: it may take 20 µs for each.
 const MOST_BOXES: usize = 256;
 
-/// Ticks of the way that the broad phase is taken along: three turns of the pull.
+/// Ticks of the path that the broad phase is taken along: three turns of the acceleration.
 const WAY_TICKS: usize = 999;
 
 /// Moves one or many balls.
 pub trait Mover {
-    /// A tick of every ball under a pull (units/s²).
-    fn tick(&mut self, pull: Vector2<f64>);
+    /// A tick of every ball under a acceleration (units/s²).
+    fn tick(&mut self, acceleration: Vector2<f64>);
 
-    /// A tick under each pull: one call through the trait for many ticks.
-    fn tick_all(&mut self, pulls: &[Vector2<f64>]) {
-        for pull in pulls {
-            self.tick(black_box(*pull));
+    /// A tick under each acceleration: one call through the trait for many ticks.
+    fn tick_all(&mut self, accelerations: &[Vector2<f64>]) {
+        for acceleration in accelerations {
+            self.tick(black_box(*acceleration));
         }
     }
 
@@ -48,19 +48,19 @@ struct Engines<E> {
 }
 
 impl<E: Engine + Send> Mover for Engines<E> {
-    fn tick(&mut self, pull: Vector2<f64>) {
+    fn tick(&mut self, acceleration: Vector2<f64>) {
         if self.n_threads == 1 {
-            return tick_engines(&mut self.engines, pull);
+            return tick_engines(&mut self.engines, acceleration);
         }
         let n_each = self.engines.len().div_ceil(self.n_threads);
         let mut parts = self.engines.chunks_mut(n_each);
         let first = parts.next().unwrap_or_default();
         thread::scope(|scope| {
             for part in parts {
-                scope.spawn(move || tick_engines(part, pull));
+                scope.spawn(move || tick_engines(part, acceleration));
             }
             // One part is this thread's.
-            tick_engines(first, pull);
+            tick_engines(first, acceleration);
         });
     }
 
@@ -77,10 +77,10 @@ impl<E: Engine + Send> Mover for Engines<E> {
     }
 }
 
-fn tick_engines<E: Engine>(engines: &mut [E], pull: Vector2<f64>) {
+fn tick_engines<E: Engine>(engines: &mut [E], acceleration: Vector2<f64>) {
     for engine in engines {
         // Refused is only what is not finite.
-        let _ = black_box(engine.tick(black_box(pull)));
+        let _ = black_box(engine.tick(black_box(acceleration)));
     }
 }
 
@@ -118,9 +118,9 @@ pub(super) fn exact_on_2_threads(course: &Course) -> Result<Box<dyn Mover>, Benc
     continuous(course, course.case.planes(), 2)
 }
 
-/// The exact engine on planes without directories.
-pub(super) fn without_directories(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
-    let planes = SortedPlanes::clone(course.case.planes()).without_directories();
+/// The exact engine on planes without bucket indexes.
+pub(super) fn without_bucket_index(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
+    let planes = SortedPlanes::clone(course.case.planes()).without_bucket_index();
     continuous(course, &Arc::new(planes), 1)
 }
 
@@ -129,15 +129,15 @@ pub(super) fn published(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
     engines(course, 1, |ball| Published::new(Arc::clone(course.case.planes()), course.spec, ball, TICK_S))
 }
 
-/// rapier's step, without a look at what happened in it.
+/// rapier's step, without reading its events.
 struct Steps {
     engine: RapierEngine,
     n_balls: usize,
 }
 
 impl Mover for Steps {
-    fn tick(&mut self, pull: Vector2<f64>) {
-        self.engine.step(pull);
+    fn tick(&mut self, acceleration: Vector2<f64>) {
+        self.engine.step(acceleration);
     }
 
     fn n_balls(&self) -> usize {
@@ -182,15 +182,15 @@ pub(super) fn crowd(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
 struct Boxes {
     engine: RapierEngine,
     n_balls: usize,
-    way: Vec<Vector2<f64>>,
+    path: Vec<Vector2<f64>>,
     next: usize,
 }
 
 impl Mover for Boxes {
     fn tick(&mut self, _: Vector2<f64>) {
         for _ in 0..self.n_balls {
-            black_box(self.engine.update_broad_phase(self.way[self.next]));
-            self.next = if self.next + 1 < self.way.len() { self.next + 1 } else { 0 };
+            black_box(self.engine.update_broad_phase(self.path[self.next]));
+            self.next = if self.next + 1 < self.path.len() { self.next + 1 } else { 0 };
         }
     }
 
@@ -199,29 +199,29 @@ impl Mover for Boxes {
     }
 
     fn ball(&self) -> Ball {
-        Ball::at(self.way[self.next])
+        Ball::at(self.path[self.next])
     }
 
     fn place(&mut self, _: Ball) {}
 }
 
-/// The broad phase on the way of a ball that rolls; from one to the next where there are several.
+/// The broad phase on the path of a ball that rolls; from one to the next where there are several.
 pub(super) fn boxes(course: &Course) -> Result<Box<dyn Mover>, BenchError> {
-    let way = match course.starts[..] {
-        [start] => way(course, start)?,
+    let path = match course.starts[..] {
+        [start] => rolled_path(course, start)?,
         _ => course.starts.iter().map(|ball| ball.position).collect(),
     };
     let (engine, n_balls) = (world(course, Walls::Cuboids)?, course.starts.len().min(MOST_BOXES));
-    Ok(Box::new(Boxes { engine, n_balls, way, next: 0 }))
+    Ok(Box::new(Boxes { engine, n_balls, path, next: 0 }))
 }
 
-fn way(course: &Course, start: Ball) -> Result<Vec<Vector2<f64>>, BenchError> {
+fn rolled_path(course: &Course, start: Ball) -> Result<Vec<Vector2<f64>>, BenchError> {
     let mut engine = course.exact(start)?;
-    let tick = |pull| {
-        engine.tick(pull).map_err(BenchError::set_up)?;
+    let tick = |acceleration| {
+        engine.tick(acceleration).map_err(BenchError::set_up)?;
         Ok(engine.ball().position)
     };
-    turning_pulls().into_iter().cycle().take(WAY_TICKS).map(tick).collect()
+    turning_accelerations().into_iter().cycle().take(WAY_TICKS).map(tick).collect()
 }
 
 #[cfg(test)]
@@ -236,11 +236,11 @@ mod tests {
         let starts = course.starts.clone();
         let [mut one, mut two] = [exact(&course).unwrap(), exact_on_2_threads(&course).unwrap()];
         let mut alone: Vec<Continuous> = starts.iter().map(|start| course.exact(*start).unwrap()).collect();
-        for pull in turning_pulls() {
-            one.tick(pull);
-            two.tick(pull);
+        for acceleration in turning_accelerations() {
+            one.tick(acceleration);
+            two.tick(acceleration);
             for engine in &mut alone {
-                engine.tick(pull).unwrap();
+                engine.tick(acceleration).unwrap();
             }
             assert_eq!((one.ball(), two.ball()), (alone[0].ball(), alone[0].ball()));
         }
@@ -252,10 +252,10 @@ mod tests {
         let case = Case::new(9, 1).unwrap();
         let course = Course::middle(&case);
         let (mut boxes, mut engine) = (boxes(&course).unwrap(), course.exact(course.starts[0]).unwrap());
-        for pull in turning_pulls() {
-            engine.tick(pull).unwrap();
+        for acceleration in turning_accelerations() {
+            engine.tick(acceleration).unwrap();
             assert_eq!(boxes.ball().position, engine.ball().position);
-            boxes.tick(pull);
+            boxes.tick(acceleration);
         }
     }
 }

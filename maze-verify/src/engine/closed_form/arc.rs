@@ -196,12 +196,12 @@ mod tests {
         let n_steps = 20_000;
         let step_s = time_s / f64::from(n_steps);
         let (mut angle, mut rate) = (degrees.to_radians(), -speed / RADIUS);
-        let pull = |angle: f64| 3.0 / RADIUS * angle.sin();
+        let acceleration = |angle: f64| 3.0 / RADIUS * angle.sin();
         for _ in 0..n_steps {
-            let (a1, r1) = (rate, pull(angle));
-            let (a2, r2) = (rate + step_s / 2.0 * r1, pull(angle + step_s / 2.0 * a1));
-            let (a3, r3) = (rate + step_s / 2.0 * r2, pull(angle + step_s / 2.0 * a2));
-            let (a4, r4) = (rate + step_s * r3, pull(angle + step_s * a3));
+            let (a1, r1) = (rate, acceleration(angle));
+            let (a2, r2) = (rate + step_s / 2.0 * r1, acceleration(angle + step_s / 2.0 * a1));
+            let (a3, r3) = (rate + step_s / 2.0 * r2, acceleration(angle + step_s / 2.0 * a2));
+            let (a4, r4) = (rate + step_s * r3, acceleration(angle + step_s * a3));
             angle += step_s / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
             rate += step_s / 6.0 * (r1 + 2.0 * r2 + 2.0 * r3 + r4);
         }

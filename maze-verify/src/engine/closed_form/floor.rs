@@ -18,7 +18,7 @@ const N_HALVINGS: u32 = 80;
 const UP: Vector2<f64> = Vector2::new(0.0, 1.0);
 
 /// A ball on its way, bounces on one stretch included.
-struct Way<'a> {
+struct Flight<'a> {
     radius: f64,
     restitution: f64,
     acceleration: Vector2<f64>,
@@ -36,22 +36,23 @@ pub(super) fn at(
     acceleration: Vector2<f64>,
     time_s: f64,
 ) -> Option<Ball> {
-    let way = Way { radius: spec.radius.units(), restitution: spec.restitution, acceleration, stretches };
+    let flight =
+        Flight { radius: spec.radius.units(), restitution: spec.restitution, acceleration, stretches };
     let (mut ball, mut left_s) = (from, time_s);
     for (index, stretch) in stretches.iter().enumerate() {
-        let Some(edge_s) = way.time_to_edge(index, ball) else {
-            return way.above(stretch, ball, left_s);
+        let Some(edge_s) = flight.time_to_edge(index, ball) else {
+            return flight.above(stretch, ball, left_s);
         };
         if left_s < edge_s {
-            return way.above(stretch, ball, left_s);
+            return flight.above(stretch, ball, left_s);
         }
         left_s -= edge_s;
-        ball = way.above(stretch, ball, edge_s)?;
-        let slides = ball.position.y == stretch.height + way.radius && ball.velocity.y == 0.0;
+        ball = flight.above(stretch, ball, edge_s)?;
+        let slides = ball.position.y == stretch.height + flight.radius && ball.velocity.y == 0.0;
         if !slides {
             return None;
         }
-        match way.cross(index, ball, left_s)? {
+        match flight.cross(index, ball, left_s)? {
             Next::Ball(ball) => return Some(ball),
             Next::Crossed((after, taken_s)) => {
                 ball = after;
@@ -68,7 +69,7 @@ enum Next {
     Crossed(Crossing),
 }
 
-impl Way<'_> {
+impl Flight<'_> {
     /// Bouncing or sliding on a stretch as if it had no ends.
     fn above(&self, stretch: &Stretch, ball: Ball, time_s: f64) -> Option<Ball> {
         let line = Line {

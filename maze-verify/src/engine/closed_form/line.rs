@@ -1,6 +1,6 @@
 //! A ball on a line between two walls.
 
-/// Bounces that rise less than this (units) are rest: far below every bar.
+/// Bounces that rise less than this (units) are rest: far below every tolerance.
 const REST_APEX: f64 = 1.0e-15;
 
 /// Most bounces along one axis: with a restitution of 0.99 a fall from 1 unit ends after 1700.

@@ -71,7 +71,7 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// `tick_s` is how far one tick looks ahead (s); the motion does not depend on it.
+    /// `tick_s` is the length of a tick (s); the motion does not depend on it.
     ///
     /// # Errors
     /// A position or velocity that is not finite.
@@ -109,9 +109,9 @@ impl ClosedForm {
 /// Straight on, mirrored once about the line from the corner to the centre at the touch.
 fn past_corner(from: Ball, point: Vector2<f64>, spec: &BallSpec, time_s: f64) -> Ball {
     let radius = spec.radius.units();
-    let (way, velocity) = (from.position - point, from.velocity);
-    // |way + velocity t|² = radius².
-    let (a, b, c) = (velocity.norm_squared(), way.dot(&velocity), way.norm_squared() - radius * radius);
+    let (offset, velocity) = (from.position - point, from.velocity);
+    // |offset + velocity t|² = radius².
+    let (a, b, c) = (velocity.norm_squared(), offset.dot(&velocity), offset.norm_squared() - radius * radius);
     let root = b * b - a * c;
     let hit_s = if b < 0.0 && 0.0 < root { c / (root.sqrt() - b) } else { f64::INFINITY };
     if time_s < hit_s {

@@ -1,7 +1,7 @@
 //! The maze's ground plan: which rectangles between the wall coordinates are solid and which are free.
 //!
 //! Raw wall faces come in pieces, doubled, and hidden where two walls meet. The plan is their sum: walking along x, each
-//! face that looks towards -x enters a wall and each that looks towards +x leaves one (the winding number), so whatever
+//! face with normal -x enters a wall and each with normal +x leaves one (the winding number), so whatever
 //! lies inside any wall is solid, and what remains between solid and free is exactly the faces that a ball can touch.
 //! The walk is made from all four sides; where a file lacks a face they disagree, and three of four decide (`draft.rs`).
 
@@ -9,22 +9,22 @@ use crate::physics::numbers::greater;
 use crate::physics::wall::{Facing, Plane};
 use std::collections::BTreeMap;
 
-/// How common a gap must be, as a part of the commonest, to be a corridor's width.
-const COMMON_PART: f64 = 0.25;
+/// How common a gap must be, as a fraction of the commonest, to be a corridor's width.
+const COMMON_FRACTION: f64 = 0.25;
 
-/// A gap narrower than this part of the narrow corridors is a slit between walls, however long.
-const SLIT_PART: f64 = 0.25;
+/// A gap narrower than this fraction of the narrow corridors is a slit between walls, however long.
+const SLIT_FRACTION: f64 = 0.25;
 
 /// The ground plan. Cell (i, j) is `xs[i]..xs[i + 1]` by `ys[j]..ys[j + 1]`.
 /// Invariant: `xs` and `ys` strictly ascend and have at least two entries.
 #[derive(Clone, Debug)]
-pub(crate) struct Section {
+pub(crate) struct Occupancy {
     pub(crate) xs: Vec<f64>,
     pub(crate) ys: Vec<f64>,
     pub(crate) solid: Vec<bool>, // row by row: [j * (xs.len() - 1) + i]
-    /// Part of the area on which not every direction agreed, because a face is missing.
+    /// Fraction of the area on which not every direction agreed, because a face is missing.
     pub(crate) doubtful_fraction: f64,
-    /// Whether the faces look into the walls: the file is inside out.
+    /// Whether the normals point into the walls: the file is inside out.
     pub(crate) inverted: bool,
     /// Coordinates nearer than this became one, where there were such beyond the rounding of a file.
     pub(crate) merged_within: Option<f64>,
@@ -32,7 +32,7 @@ pub(crate) struct Section {
     pub(crate) thickened_to: Option<f64>,
 }
 
-impl Section {
+impl Occupancy {
     /// Number of cells along x and along y.
     pub(crate) fn n_cells(&self) -> [usize; 2] {
         [self.xs.len() - 1, self.ys.len() - 1]
@@ -131,7 +131,7 @@ impl Section {
     /// slits: a width must be a quarter as common as the commonest.
     pub(crate) fn corridor(&self) -> Option<f64> {
         let [_, narrow] = self.thin_and_narrow();
-        let slit = SLIT_PART * narrow?;
+        let slit = SLIT_FRACTION * narrow?;
         let mut gaps = self.gaps(|axis, step, across| self.is_solid_framed(axis, step, across));
         gaps.retain(|(gap, _)| slit <= *gap);
         let extent = |width: &[(f64, f64)]| width.iter().map(|(_, extent)| extent).sum::<f64>();
@@ -139,7 +139,7 @@ impl Section {
         let noise = 2.0 * self.merged_within.unwrap_or(0.0);
         let widths = || gaps.chunk_by(|a, b| b.0 <= a.0 * 1.02 + noise);
         let most = widths().map(extent).reduce(greater)?;
-        let narrowest = widths().find(|width| COMMON_PART * most <= extent(width))?;
+        let narrowest = widths().find(|width| COMMON_FRACTION * most <= extent(width))?;
         narrowest.iter().rev().max_by(|a, b| a.1.total_cmp(&b.1)).map(|(gap, _)| *gap)
     }
 
@@ -227,7 +227,7 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{SectionError, SortedPlanes};
+    use crate::{PlanError, SortedPlanes};
 
     /// The four faces of a solid rectangle.
     fn block(x: [f64; 2], y: [f64; 2]) -> [Plane; 4] {
@@ -240,8 +240,8 @@ mod tests {
         ]
     }
 
-    fn section(blocks: &[[Plane; 4]]) -> Section {
-        Section::new(&blocks.concat()).unwrap()
+    fn plan(blocks: &[[Plane; 4]]) -> Occupancy {
+        Occupancy::new(&blocks.concat()).unwrap()
     }
 
     /// A ring of walls, one unit thick, with a 3 x 3 hole.
@@ -256,7 +256,7 @@ mod tests {
 
     #[test]
     fn faces_hidden_where_two_walls_meet_are_dropped() {
-        let planes = SortedPlanes::new(section(&ring()).faces()).unwrap();
+        let planes = SortedPlanes::new(plan(&ring()).faces()).unwrap();
         assert_eq!(planes.len(), 4, "only the four inner faces remain: {planes:?}");
         let inner: Vec<_> = Facing::ALL.into_iter().flat_map(|facing| planes.planes(facing)).collect();
         assert!(inner.iter().all(|plane| (plane.start, plane.end) == (1.0, 4.0)));
@@ -266,7 +266,7 @@ mod tests {
     fn overlapping_walls_are_one() {
         let mut blocks = ring();
         blocks.push(block([0.5, 2.0], [2.0, 3.0])); // a stub that reaches into the left wall
-        let planes = SortedPlanes::new(section(&blocks).faces()).unwrap();
+        let planes = SortedPlanes::new(plan(&blocks).faces()).unwrap();
         let plus_x: Vec<_> = planes.planes(Facing::PlusX).map(|p| (p.offset, p.start, p.end)).collect();
         assert_eq!(plus_x, [(1.0, 1.0, 2.0), (1.0, 3.0, 4.0), (2.0, 2.0, 3.0)]);
     }
@@ -283,8 +283,8 @@ mod tests {
             ..plane
         };
         let raw: Vec<Plane> = ring().concat().into_iter().map(flipped).collect();
-        let inverted = SortedPlanes::new(Section::new(&raw).unwrap().faces()).unwrap();
-        assert_eq!(inverted, SortedPlanes::new(section(&ring()).faces()).unwrap());
+        let inverted = SortedPlanes::new(Occupancy::new(&raw).unwrap().faces()).unwrap();
+        assert_eq!(inverted, SortedPlanes::new(plan(&ring()).faces()).unwrap());
     }
 
     #[test]
@@ -293,10 +293,10 @@ mod tests {
         // The far wall has a gap from x = 2 to 4.
         blocks[1] = block([0.0, 2.0], [4.0, 5.0]);
         blocks.push(block([4.0, 5.0], [4.0, 5.0]));
-        let section = section(&blocks);
-        let openings = section.openings();
+        let plan = plan(&blocks);
+        let openings = plan.openings();
         assert_eq!(openings, [Plane { facing: Facing::MinusY, offset: 5.0, start: 2.0, end: 4.0 }]);
-        assert!(section.faces().any(|face| face.facing == Facing::MinusY && face.offset == 5.0));
+        assert!(plan.faces().any(|face| face.facing == Facing::MinusY && face.offset == 5.0));
     }
 
     #[test]
@@ -306,26 +306,26 @@ mod tests {
         blocks.push(block([0.0, 3.0], [4.0, 5.0])); // and a space 2 wide and 3 long
         blocks.push(block([3.0, 4.0], [2.0, 5.0]));
         blocks.push(block([4.0, 4.5], [2.2, 5.0])); // and a slit
-        assert_eq!(section(&blocks).corridor(), Some(1.5));
+        assert_eq!(plan(&blocks).corridor(), Some(1.5));
     }
 
     #[test]
     fn rounding_in_the_file_does_not_split_a_coordinate() {
         let mut blocks = ring();
         blocks[2] = block([0.0, 1.000_001], [0.999_999, 4.0]);
-        let planes = SortedPlanes::new(section(&blocks).faces()).unwrap();
+        let planes = SortedPlanes::new(plan(&blocks).faces()).unwrap();
         assert_eq!(planes.len(), 4, "{planes:?}");
     }
 
     #[test]
     fn a_forgotten_face_is_outvoted() {
-        let whole = SortedPlanes::new(section(&ring()).faces()).unwrap();
+        let whole = SortedPlanes::new(plan(&ring()).faces()).unwrap();
         let raw = ring().concat();
         for missing in 0..raw.len() {
             let mut raw = raw.clone();
             raw.remove(missing);
-            let section = Section::new(&raw).unwrap();
-            assert_eq!(SortedPlanes::new(section.faces()).unwrap(), whole, "without face {missing}");
+            let plan = Occupancy::new(&raw).unwrap();
+            assert_eq!(SortedPlanes::new(plan.faces()).unwrap(), whole, "without face {missing}");
         }
     }
 
@@ -334,11 +334,11 @@ mod tests {
         let face = |facing| Plane { facing, offset: 2.5, start: 1.0, end: 3.0 };
         let mut raw = ring().concat();
         raw.extend([Facing::MinusX, Facing::PlusX].map(face));
-        let section = Section::new(&raw).unwrap();
+        let plan = Occupancy::new(&raw).unwrap();
         // Corridors of 1.5 on either side; a tenth of that, and half of it beyond the open end.
-        let thickness = section.thickened_to.unwrap();
+        let thickness = plan.thickened_to.unwrap();
         assert!((thickness - 0.15).abs() < 1.0e-4, "{thickness}");
-        let planes = SortedPlanes::new(section.faces()).unwrap();
+        let planes = SortedPlanes::new(plan.faces()).unwrap();
         let end: Vec<_> = planes.planes(Facing::PlusY).map(|plane| plane.offset).collect();
         // The room's wall on either side, and the end.
         assert_eq!(end, [1.0, 1.0, 3.0 + thickness / 2.0]);
@@ -350,7 +350,7 @@ mod tests {
             let mut blocks = ring();
             blocks[0] = block([0.0, 2.0], [0.0, 1.0]);
             blocks.push(block([2.0, 5.0], [0.0, 1.0 + by]));
-            section(&blocks)
+            plan(&blocks)
         };
         // A thousandth of the size is 0.005.
         let merged = noisy(0.004);
@@ -360,19 +360,19 @@ mod tests {
         assert_eq!((SortedPlanes::new(kept.faces()).unwrap().len(), kept.merged_within), (6, None));
         // Walls of a thousandth of the size stay two faces apart.
         let thin: Vec<_> = (0..5).map(|n| block([0.0, 10.0], [f64::from(n), f64::from(n) + 0.004])).collect();
-        assert_eq!(section(&thin).ys.len(), 10);
+        assert_eq!(plan(&thin).ys.len(), 10);
     }
 
     #[test]
     fn walls_that_lack_only_their_ends_are_solid_between_their_sides() {
         let raw: Vec<Plane> = ring().concat().into_iter().filter(|plane| plane.facing.axis() == 0).collect();
-        let planes = SortedPlanes::new(Section::new(&raw).unwrap().faces()).unwrap();
-        assert_eq!(planes, SortedPlanes::new(section(&ring()).faces()).unwrap());
+        let planes = SortedPlanes::new(Occupancy::new(&raw).unwrap().faces()).unwrap();
+        assert_eq!(planes, SortedPlanes::new(plan(&ring()).faces()).unwrap());
     }
 
     #[test]
     fn walls_seen_from_one_side_are_given_two() {
-        // A room of 4 x 4 with a wall from the left, all single faces, whichever way they look.
+        // A room of 4 x 4 with a wall from the left, all single faces, whichever way they face.
         let face = |facing, offset, start, end| Plane { facing, offset, start, end };
         for flip in [Facing::PlusY, Facing::MinusY] {
             let raw = [
@@ -382,9 +382,9 @@ mod tests {
                 face(Facing::PlusY, 4.0, 0.0, 4.0),
                 face(flip, 2.0, 0.0, 3.0),
             ];
-            let section = Section::new(&raw).unwrap();
-            assert!(section.thickened_to.is_some());
-            assert_eq!(SortedPlanes::new(section.faces()).unwrap().len(), 8, "{flip:?}");
+            let plan = Occupancy::new(&raw).unwrap();
+            assert!(plan.thickened_to.is_some());
+            assert_eq!(SortedPlanes::new(plan.faces()).unwrap().len(), 8, "{flip:?}");
         }
     }
 
@@ -398,7 +398,7 @@ mod tests {
             .filter(|(n, _)| !matches!(n, 2 | 3))
             .map(|(_, plane)| plane)
             .collect();
-        let error = Section::new(&raw).unwrap_err();
-        assert!(matches!(error, SectionError::Open { .. }), "{error}");
+        let error = Occupancy::new(&raw).unwrap_err();
+        assert!(matches!(error, PlanError::Open { .. }), "{error}");
     }
 }

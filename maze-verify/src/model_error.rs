@@ -1,4 +1,4 @@
-//! The method's own relaxation: how far "project gravity, forget z" lies from a ball that rolls on a real, tilting board.
+//! The model error of the planar projection: how far "project gravity, forget z" lies from a ball that rolls on a real, tilting board.
 //!
 //! Truth here is rapier in three dimensions, itself checked by the equation of a sphere that rolls without slipping on a
 //! board which turns about an axis through its middle (derived in docs/verification.md):
@@ -74,7 +74,7 @@ pub struct SpinBounce {
 
 /// All three.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Relaxation {
+pub struct ModelError {
     /// Boards held still.
     pub held: Vec<Held>,
     /// Boards that swing.
@@ -97,10 +97,10 @@ fn n_ticks(time_s: f64) -> u32 {
 ///
 /// # Errors
 /// None that these numbers can meet; those of the engine.
-pub fn measure() -> Result<Relaxation, OutOfRange> {
+pub fn measure() -> Result<ModelError, OutOfRange> {
     let swings =
         AMPLITUDES_DEG.iter().flat_map(|amplitude| FREQUENCIES_HZ.map(|frequency| (*amplitude, frequency)));
-    Ok(Relaxation {
+    Ok(ModelError {
         held: TILTS_DEG.into_iter().map(held).collect::<Result<_, _>>()?,
         swings: swings.map(|(amplitude, frequency)| swing(amplitude, frequency)).collect::<Result<_, _>>()?,
         bounces: [0.5, 0.8, 1.0].into_iter().map(spin_bounce).collect::<Result<_, _>>()?,
@@ -116,13 +116,13 @@ fn board(walls: Vec<Bounds>) -> Result<Board, OutOfRange> {
 }
 
 fn held(tilt_deg: f64) -> Result<Held, OutOfRange> {
-    let pull = Gravity::Constant { tilt_deg: [tilt_deg, 0.0] }.acceleration(0.0);
+    let acceleration = Gravity::Constant { tilt_deg: [tilt_deg, 0.0] }.acceleration(0.0);
     let mut engine = RollingEngine::new(&open_board()?, spec(0.8), Ball::default(), TICK_S)?;
     let time_s = 1.0;
     for _ in 0..n_ticks(time_s) {
-        engine.tick(pull)?;
+        engine.tick(acceleration)?;
     }
-    Ok(Held { tilt_deg, part: engine.ball().velocity.x / time_s / pull.x })
+    Ok(Held { tilt_deg, part: engine.ball().velocity.x / time_s / acceleration.x })
 }
 
 /// Angle, rate and its change (radians, 1/s, 1/s²) of a board that swings from its largest tilt on.
@@ -136,12 +136,12 @@ fn swing(amplitude_deg: f64, frequency_hz: f64) -> Result<Swing, OutOfRange> {
     let gravity = Gravity::Sinusoidal { amplitude_deg: [amplitude_deg, 0.0], frequency_hz };
     let mut engine = RollingEngine::new(&open_board()?, spec(0.8), Ball::default(), TICK_S)?;
     let angle = |time_s| swinging(amplitude_deg, frequency_hz, time_s);
-    let pull = |time_s: f64| -WORLD_GRAVITY.z * angle(time_s)[0].sin();
-    let projected = |part: f64| move |time_s: f64, _: [f64; 2]| part * pull(time_s);
+    let acceleration = |time_s: f64| -WORLD_GRAVITY.z * angle(time_s)[0].sin();
+    let projected = |part: f64| move |time_s: f64, _: [f64; 2]| part * acceleration(time_s);
     let [sphere, point] = [BallSpec::ROLLING_SPHERE, BallSpec::POINT_MASS].map(projected);
     let equation = |time_s: f64, [x, _]: [f64; 2]| {
         let [_, rate, change] = angle(time_s);
-        BallSpec::ROLLING_SPHERE * (pull(time_s) + rate * rate * x) - R * change
+        BallSpec::ROLLING_SPHERE * (acceleration(time_s) + rate * rate * x) - R * change
     };
     let (mut by_sphere, mut by_point, mut by_equation) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let mut swing = Swing {

@@ -2,7 +2,7 @@
 
 use crate::contender::Contender::{self, Continuous, Published, RapierCuboids, RapierMesh, RapierRolling};
 use crate::metrics::{FirstBounce, Metrics};
-use crate::relaxation::Relaxation;
+use crate::model_error::ModelError;
 use crate::results::SceneResult;
 use crate::scene;
 use crate::scene::Family::{
@@ -12,7 +12,7 @@ use crate::scene::Family::{
 use serde::{Deserialize, Serialize};
 
 /// A limit on one metric of some engines in some scenes.
-pub struct Bar {
+pub struct Tolerance {
     /// Of the metric, as in reports.
     pub metric: &'static str,
     /// Whom it binds.
@@ -29,7 +29,7 @@ pub struct Bar {
     pub reason: &'static str,
 }
 
-/// Where a bar was missed.
+/// Where a tolerance was missed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Missed {
     /// Name of the scene.
@@ -42,7 +42,7 @@ pub struct Missed {
     pub value: f64,
 }
 
-/// How a bar came out.
+/// How a tolerance came out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Of the metric.
@@ -91,7 +91,7 @@ const SUBSTEP: f64 = maze_core::engine::SUBSTEP;
 /// Of the ball in every named scene (units).
 const RADIUS: f64 = 0.25;
 
-/// A push-out by a tick's way, v dt, against a pull a gives a v dt; by v² / 2 that is 2 a dt / v = 0.094 for the drop from
+/// A push-out by a tick's displacement, v dt, against a acceleration a gives a v dt; by v² / 2 that is 2 a dt / v = 0.094 for the drop from
 /// 1 unit at 0.03 s.
 const PUBLISHED_GAIN: f64 = 0.1;
 
@@ -99,11 +99,11 @@ const PUBLISHED_GAIN: f64 = 0.1;
 const FEW_PERCENT: f64 = 0.03;
 
 /// How much of what projection leaves the equation of the rolling sphere may leave (1).
-const EQUATION_PART: f64 = 0.1;
+const EQUATION_FRACTION: f64 = 0.1;
 
-/// Every bar.
-pub const BARS: &[Bar] = &[
-    Bar {
+/// Every tolerance.
+pub const TOLERANCES: &[Tolerance] = &[
+    Tolerance {
         metric: "apex error",
         engines: &[Continuous],
         families: WITH_TRUTH,
@@ -112,7 +112,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "bounces that rise less than 3e-9 radii (7.5e-10) are rest; all others are exact but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "velocity error",
         engines: &[Continuous],
         families: WITH_TRUTH,
@@ -121,7 +121,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "after the first bounce, exact but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "restitution error",
         engines: &[Continuous],
         families: FACES,
@@ -130,7 +130,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "of the first bounce, exact but for rounding; a graze would divide it by next to nothing",
     },
-    Bar {
+    Tolerance {
         metric: "angle error",
         engines: &[Continuous],
         families: WITH_TRUTH,
@@ -139,7 +139,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "degrees after the first bounce, exact but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "position error",
         engines: &[Continuous],
         families: ONE_BY_ONE,
@@ -148,7 +148,7 @@ pub const BARS: &[Bar] = &[
         limit: 2.0e-9,
         reason: "a bounce that rises less than 3e-9 radii (7.5e-10) is rest, and may be missed on the way up and on the way down",
     },
-    Bar {
+    Tolerance {
         metric: "position error over steps, slits",
         engines: &[Continuous],
         families: &[Step, Slit],
@@ -157,7 +157,7 @@ pub const BARS: &[Bar] = &[
         limit: 2.0e-9,
         reason: "each edge is rolled over or hit where it is; after it a bounce below 1e-9 is rest, as above",
     },
-    Bar {
+    Tolerance {
         metric: "position error around edges",
         engines: &[Continuous],
         families: &[RollOver, FreeEnd],
@@ -167,7 +167,7 @@ pub const BARS: &[Bar] = &[
         reason: "slides, arcs and flights follow one another without a bounce: exact but for rounding, which a ball of 0.001 units/s \
                  on an edge multiplies by 1000",
     },
-    Bar {
+    Tolerance {
         metric: "position error without play",
         engines: &[Continuous],
         families: &[Narrow],
@@ -176,17 +176,17 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "a corridor as wide as the ball leaves it nothing but the way along: exact but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "rest error",
         engines: &[Continuous],
         families: ALL,
         longest_tick_s: ANY_TICK,
         value: |m| m.rest_error,
         limit: EXACT,
-        reason: "of the last place, and the way of a second at the last speed: a ball that is wedged rests where it touches both, \
+        reason: "of the last place, and the distance of a second at the last speed: a ball that is wedged rests where it touches both, \
                  exact but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "penetration",
         engines: &[Continuous],
         families: ALL,
@@ -195,7 +195,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "0 but for the contact tolerances (8e-12 radii) and rounding",
     },
-    Bar {
+    Tolerance {
         metric: "tunnels",
         engines: &[Continuous, Published],
         families: ALL,
@@ -204,7 +204,7 @@ pub const BARS: &[Bar] = &[
         limit: 0.0,
         reason: "a ball that goes through a wall ends the game's world",
     },
-    Bar {
+    Tolerance {
         metric: "energy gain",
         engines: &[Continuous],
         families: ALL,
@@ -213,7 +213,7 @@ pub const BARS: &[Bar] = &[
         limit: EXACT,
         reason: "bounces and rest take energy and never give any, but for rounding",
     },
-    Bar {
+    Tolerance {
         metric: "overlap corrected",
         engines: &[Continuous],
         families: ALL,
@@ -222,7 +222,7 @@ pub const BARS: &[Bar] = &[
         limit: 0.0,
         reason: "the engine keeps the ball outside by itself, and its check at the end of a tick never has to",
     },
-    Bar {
+    Tolerance {
         metric: "time dropped",
         engines: &[Continuous, Published],
         families: NAMED,
@@ -231,7 +231,7 @@ pub const BARS: &[Bar] = &[
         limit: 0.0,
         reason: "no scene needs more events than the engines' bounds",
     },
-    Bar {
+    Tolerance {
         metric: "penetration",
         engines: &[Published],
         families: SINGLE_CONTACTS,
@@ -240,7 +240,7 @@ pub const BARS: &[Bar] = &[
         limit: SUBSTEP,
         reason: "what is left after a push-out along a face's normal: at a corner at most a substep",
     },
-    Bar {
+    Tolerance {
         metric: "penetration before push-out",
         engines: &[Published],
         families: SINGLE_CONTACTS,
@@ -249,34 +249,34 @@ pub const BARS: &[Bar] = &[
         limit: RADIUS,
         reason: "a step is never longer than the ball's radius",
     },
-    Bar {
+    Tolerance {
         metric: "energy gain",
         engines: &[Published],
         families: SINGLE_CONTACTS,
         longest_tick_s: ANY_TICK,
         value: |m| Some(m.energy_gain_part),
         limit: PUBLISHED_GAIN,
-        reason: "of the largest kinetic energy in one tick: a push-out by a tick's way against gravity",
+        reason: "of the largest kinetic energy in one tick: a push-out by a tick's displacement against gravity",
     },
-    Bar {
+    Tolerance {
         metric: "position error",
         engines: PLANAR_RAPIER,
         families: FACES,
         longest_tick_s: FINE_TICK,
         value: |m| Some(m.errors.as_ref()?.position_part),
         limit: FEW_PERCENT,
-        reason: "of the way gone: the scenes are set up alike",
+        reason: "of the distance covered: the scenes are set up alike",
     },
-    Bar {
+    Tolerance {
         metric: "position error over seams",
         engines: &[RapierMesh],
         families: &[Seams],
         longest_tick_s: FINE_TICK,
         value: |m| Some(m.errors.as_ref()?.position_part),
         limit: FEW_PERCENT,
-        reason: "of the way gone: a mesh with mended edges has no ghost bumps (separate cuboids have, and are not bound)",
+        reason: "of the distance covered: a mesh with corrected internal edges has no ghost bumps (separate cuboids have, and are not bound)",
     },
-    Bar {
+    Tolerance {
         metric: "first apex error",
         engines: &[RapierCuboids, RapierMesh, RapierRolling],
         families: &[Drop],
@@ -285,7 +285,7 @@ pub const BARS: &[Bar] = &[
         limit: FEW_PERCENT,
         reason: "of the height: the scenes are set up alike",
     },
-    Bar {
+    Tolerance {
         metric: "angle error",
         engines: PLANAR_RAPIER,
         families: FACES,
@@ -314,22 +314,22 @@ fn verdict(metric: &str, engines: &[Contender], limit: f64, reason: &str, checke
     }
 }
 
-/// Asks every bar.
-pub fn judge(scenes: &[SceneResult], relaxation: Option<&Relaxation>) -> Vec<Verdict> {
-    let mut verdicts: Vec<Verdict> = BARS.iter().map(|bar| bar.judge(scenes)).collect();
+/// Asks every tolerance.
+pub fn judge(scenes: &[SceneResult], model_error: Option<&ModelError>) -> Vec<Verdict> {
+    let mut verdicts: Vec<Verdict> = TOLERANCES.iter().map(|bar| bar.judge(scenes)).collect();
     if measures_rapier(scenes) {
         verdicts.push(first_bounces(scenes));
     }
-    verdicts.extend(relaxation.into_iter().flat_map(relaxed));
+    verdicts.extend(model_error.into_iter().flat_map(relaxed));
     verdicts.retain(|verdict| 0 < verdict.n_checked);
     verdicts
 }
 
 /// What rapier itself is off by at first bounces where there is a truth, as the largest over all scenes.
 struct OwnError {
-    /// Of the velocity after, by the speed before: where nothing pulls.
+    /// Of the velocity after, by the speed before: where nothing accelerations.
     of_speed: f64,
-    /// Of the velocity after, by what the pull gives while the bounce may happen: off faces.
+    /// Of the velocity after, by what the acceleration gives while the bounce may happen: off faces.
     of_pull: f64,
 }
 
@@ -339,12 +339,16 @@ const UNTOLD: usize = 100;
 /// rapier's contacts begin this far before the touch (units).
 const RAPIER_MARGIN: f64 = 0.02;
 
-/// What the pull gives (units/s) within a tick, and on the way through rapier's margin: when within these a bounce happens is
+/// What the acceleration gives (units/s) within a tick, and on the way through rapier's margin: when within these a bounce happens is
 /// not rapier's to tell.
 fn pull_gain(bounce: FirstBounce, tick_s: f64) -> f64 {
     let [incoming, outgoing] = [bounce.velocity_in, bounce.velocity_out].map(nalgebra::Vector2::from);
     let approach = (outgoing - incoming).try_normalize(0.0).map_or(0.0, |normal| -incoming.dot(&normal));
-    if approach <= 0.0 { bounce.pull * tick_s } else { bounce.pull * (tick_s + RAPIER_MARGIN / approach) }
+    if approach <= 0.0 {
+        bounce.acceleration * tick_s
+    } else {
+        bounce.acceleration * (tick_s + RAPIER_MARGIN / approach)
+    }
 }
 
 impl OwnError {
@@ -361,8 +365,8 @@ impl OwnError {
             true => matches!(family, Corner | Graze),
             false => is_face(family),
         };
-        let without_pull = runs(&is_alike).into_iter().filter(|(first, _)| first.pull == 0.0);
-        let with_pull = runs(&is_face).into_iter().filter(|(first, _)| first.pull != 0.0);
+        let without_pull = runs(&is_alike).into_iter().filter(|(first, _)| first.acceleration == 0.0);
+        let with_pull = runs(&is_face).into_iter().filter(|(first, _)| first.acceleration != 0.0);
         let speed = |[x, y]: [f64; 2]| x.hypot(y);
         Self {
             of_speed: without_pull.map(|(first, off)| off / speed(first.velocity_in)).fold(0.0, f64::max),
@@ -425,17 +429,17 @@ fn first_bounces(scenes: &[SceneResult]) -> Verdict {
 }
 
 /// The board that tilts in three dimensions is what it is taken for.
-fn relaxed(relaxation: &Relaxation) -> [Verdict; 3] {
+fn relaxed(model_error: &ModelError) -> [Verdict; 3] {
     let missed = |scene: String, value: f64| Missed { scene, tick_s: 0.0, engine: RapierRolling, value };
-    let held = relaxation.held.iter().map(|held| {
+    let held = model_error.held.iter().map(|held| {
         let off = (held.part / maze_core::BallSpec::ROLLING_SPHERE - 1.0).abs();
         missed(format!("relaxation/held-{}", held.tilt_deg), off)
     });
-    let swings = relaxation.swings.iter().map(|swing| {
+    let swings = model_error.swings.iter().map(|swing| {
         let name = format!("relaxation/swing-{}-deg-{}-hz", swing.amplitude_deg, swing.frequency_hz);
         missed(name, swing.equation_off / swing.projected_off)
     });
-    let bounces = relaxation.bounces.iter().map(|bounce| {
+    let bounces = model_error.bounces.iter().map(|bounce| {
         missed(format!("relaxation/bounce-{}", bounce.restitution), (bounce.measured - bounce.formula).abs())
     });
     let engines = &[RapierRolling];
@@ -445,7 +449,7 @@ fn relaxed(relaxation: &Relaxation) -> [Verdict; 3] {
         verdict(
             "equation of the rolling sphere",
             engines,
-            EQUATION_PART,
+            EQUATION_FRACTION,
             "its distance to rapier by that of projected gravity: what projection leaves out is understood",
             swings.collect(),
         ),
@@ -459,7 +463,7 @@ fn relaxed(relaxation: &Relaxation) -> [Verdict; 3] {
     ]
 }
 
-impl Bar {
+impl Tolerance {
     fn judge(&self, scenes: &[SceneResult]) -> Verdict {
         let mut checked = Vec::new();
         for scene in scenes.iter().filter(|scene| self.families.contains(&scene.family)) {
