@@ -2,9 +2,11 @@
 
 use crate::failure::Failure;
 use crate::rescue;
+use image::{DynamicImage, ImageFormat};
 use maze_core::printable;
 use maze_render::{TextureSet, decode_texture};
 use std::fs;
+use std::io::Cursor;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -71,6 +73,13 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
 
 /// Most files that [`write_numbered`] tells apart.
 const MAX_NUMBER: u32 = 9999;
+
+/// A picture as the content of a .png file.
+pub(crate) fn png(picture: impl Into<DynamicImage>) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.into().write_to(&mut bytes, ImageFormat::Png).map_err(Failure::bad_input)?;
+    Ok(bytes.into_inner())
+}
 
 /// Writes `NAME-0001.ENDING` in a directory, or with the next number that is free: no file is ever replaced.
 pub(crate) fn write_numbered(

@@ -3,6 +3,7 @@
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::input::TiltControl;
+use crate::numbers::to_f32;
 use crate::source::Source;
 use maze_core::replay::{self, Constants, Recording};
 use maze_core::{Ball, Engine, Event, Hit, Maze, Phase, Run, Tick, Tilt, gravity};
@@ -292,11 +293,6 @@ impl Game {
 fn rolled(step: Vector2<f64>, radius: f64) -> UnitQuaternion<f64> {
     // About the horizontal axis on the left of the step: normal x step.
     UnitQuaternion::from_scaled_axis(Vector3::new(-step.y, step.x, 0.0) / radius)
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "drawing needs no more than f32")]
-pub(crate) fn to_f32(value: f64) -> f32 {
-    value as f32
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Maze files: which kinds there are, and how each is read and written.
 
 use crate::failure::Failure;
+use crate::loaded::Loaded;
 use crate::progress::Progress;
 use crate::{files, picture};
 use maze_core::import::picture::WallTone;
@@ -55,19 +56,6 @@ impl Kind {
             _ if text.starts_with(b"<") => Some(Self::Svg),
             _ => None,
         }
-    }
-}
-
-/// A maze and what was found on the way to it.
-pub(crate) struct Loaded {
-    pub(crate) maze: Maze,
-    /// In words, where the kind of file has something to say.
-    pub(crate) found: Option<String>,
-}
-
-impl From<Maze> for Loaded {
-    fn from(maze: Maze) -> Self {
-        Self { maze, found: None }
     }
 }
 

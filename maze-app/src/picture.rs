@@ -1,6 +1,6 @@
 //! Pictures of mazes: decoded here, within limits, and read by the core.
 
-use crate::maze_file::Loaded;
+use crate::loaded::Loaded;
 use image::{DynamicImage, GenericImageView, ImageDecoder, ImageFormat, ImageReader, Limits};
 use maze_core::AssembleOptions;
 use maze_core::import::picture::{self, MAX_PIXELS, WallTone};

@@ -1,13 +1,13 @@
 //! The frame log as a picture: frames a second and the processor's share over time.
 
 use crate::failure::Failure;
+use crate::files;
 use crate::frame_log::{FrameLog, Rate};
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 use plotters::style::FontStyle;
-use std::io::Cursor;
 
 /// Pixels.
 const SIZE: (u32, u32) = (960, 640);
@@ -28,9 +28,7 @@ pub(crate) fn svg(log: &FrameLog, title: &str) -> Result<Vec<u8>, Failure> {
 pub(crate) fn png(log: &FrameLog, title: &str) -> Result<Vec<u8>, Failure> {
     let mut picture = RgbImage::new(SIZE.0, SIZE.1);
     draw(BitMapBackend::with_buffer(&mut picture, SIZE).into_drawing_area(), log, title)?;
-    let mut png = Cursor::new(Vec::new());
-    picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
-    Ok(png.into_inner())
+    files::png(picture)
 }
 
 fn draw<B: DrawingBackend>(area: DrawingArea<B, Shift>, log: &FrameLog, title: &str) -> Result<(), Failure> {

@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use crate::files::Input;
 use crate::levels::{self, Level, N_LEVELS};
-use crate::maze_file::{self, Hints, Loaded};
+use crate::loaded::Loaded;
+use crate::maze_file::{self, Hints};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
 use crate::sidecar::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name};
 use clap::Args;

@@ -14,6 +14,14 @@ const SIZE: [u32; 2] = [320, 240];
 const ASPECT: f32 = 4.0 / 3.0;
 const GREY: [u8; 3] = [120; 3];
 
+/// A software device for each quality, whose name is shown when the test fails.
+fn every_quality() -> impl Iterator<Item = (Gpu, Quality)> {
+    Quality::ALL.into_iter().map(|quality| {
+        println!("{quality:?}");
+        (Gpu::offscreen_software().expect("a software driver"), quality)
+    })
+}
+
 fn drawn(gpu: &Gpu, quality: Quality, textures: &TextureSet, board: &Board, scene: &Scene) -> RgbaImage {
     let mut renderer = Renderer::with_quality(gpu, quality.picture_format(), textures, quality);
     renderer.set_maze(gpu, &board.mesh()).expect("a maze that fits");
@@ -44,15 +52,9 @@ fn strongest(colour: [u8; 3]) -> usize {
 
 #[test]
 fn each_surface_shows_its_own_texture() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(5, 4);
-        let mut scene = board.scene(ASPECT);
-        scene.ball.radius = 0.0;
-        scene.start.radius = 0.0;
-        scene.goal.radius = 0.0;
+        let scene = board.bare_scene(ASPECT);
         let [hx, hy, _] = board.half_size();
         let far_wall_foot = hy - WALL_THICKNESS;
         let picture =
@@ -74,15 +76,9 @@ fn each_surface_shows_its_own_texture() {
 
 #[test]
 fn textures_repeat_once_a_unit_on_tops_and_every_three_on_the_floor() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(6, 4);
-        let mut scene = board.scene(ASPECT);
-        scene.ball.radius = 0.0;
-        scene.start.radius = 0.0;
-        scene.goal.radius = 0.0;
+        let scene = board.bare_scene(ASPECT);
         // Dark left half, bright right half.
         let halves = RgbImage::from_fn(64, 64, |x, _| if x < 32 { Rgb([10; 3]) } else { Rgb([230; 3]) });
         let textures = TextureSet { wall: halves.clone(), floor: halves.clone(), top: halves };
@@ -121,10 +117,7 @@ fn the_same_scene_gives_the_same_bytes() {
 
 #[test]
 fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(5, 4);
         let textures = flat_textures(GREY, GREY, GREY);
         let mut scene = board.scene(ASPECT);
@@ -151,10 +144,7 @@ fn the_ball_is_where_the_camera_says_and_its_pattern_turns() {
 
 #[test]
 fn walls_throw_shadows_away_from_the_sun() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(5, 4);
         let mut scene = board.scene(ASPECT);
         scene.ball.radius = 0.0;
@@ -170,10 +160,7 @@ fn walls_throw_shadows_away_from_the_sun() {
 
 #[test]
 fn start_and_goal_differ_in_colour_and_the_goal_glows() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(5, 4);
         let textures = flat_textures(GREY, GREY, GREY);
         let mut scene = board.scene(ASPECT);
@@ -384,10 +371,7 @@ fn lines_and_patches_lie_over_walls_at_their_place_and_width() {
 
 #[test]
 fn a_ghost_is_seen_through_and_hidden_by_what_is_nearer() {
-    for quality in Quality::ALL {
-        println!("{quality:?}"); // Shown when the test fails.
-
-        let gpu = Gpu::offscreen_software().unwrap();
+    for (gpu, quality) in every_quality() {
         let board = Board::empty(5, 4);
         let mut scene = board.scene(ASPECT);
         scene.ball.position = [1.3, -0.7, 0.35];

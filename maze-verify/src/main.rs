@@ -117,7 +117,7 @@ fn list() -> Result<bool, BadInput> {
         text += &format!("  {:<22} {}\n", engine.name(), engine.about());
     }
     text += "\nScenes\n";
-    for scene in scene::catalogue() {
+    for scene in scene::catalogue().map_err(BadInput)? {
         text += &format!("  {:<22} {}\n", scene.name, scene.about);
     }
     text += "\nContenders of the benchmark\n";
@@ -165,7 +165,8 @@ fn run_scenes(arguments: &RunArguments) -> Result<bool, BadInput> {
 }
 
 fn chosen_scenes(arguments: &RunArguments) -> Result<Vec<Scene>, BadInput> {
-    let mut scenes = if arguments.files.is_empty() { scene::catalogue() } else { Vec::new() };
+    let mut scenes =
+        if arguments.files.is_empty() { scene::catalogue().map_err(BadInput)? } else { Vec::new() };
     for path in &arguments.files {
         let text = files::read_text(path)?;
         let read = scene::read(&text).map_err(|error| files::in_file(path, error))?;

@@ -384,8 +384,8 @@ impl OwnError {
 /// Whether every named scene is there that tells rapier's own error: a part of them would make it smaller than it is.
 fn measures_rapier(scenes: &[SceneResult]) -> bool {
     let tells = |family: Family| FACES.contains(&family) || matches!(family, Corner | Graze);
-    let mut named = scene::catalogue().into_iter().filter(|scene| tells(scene.family));
-    named.all(|wanted| scenes.iter().any(|scene| scene.name == wanted.name))
+    let is_there = |wanted: scene::Scene| scenes.iter().any(|scene| scene.name == wanted.name);
+    scene::catalogue().is_ok_and(|named| named.into_iter().filter(|scene| tells(scene.family)).all(is_there))
 }
 
 /// In mazes without a truth the first bounces of continuous and rapier differ by no more than rapier's own error.

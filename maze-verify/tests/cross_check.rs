@@ -11,7 +11,7 @@ use nalgebra::Vector2;
 
 fn scenes(names: &[&str]) -> Vec<(usize, Scene)> {
     let chosen: Vec<_> =
-        catalogue().into_iter().filter(|scene| names.contains(&scene.name.as_str())).collect();
+        catalogue().unwrap().into_iter().filter(|scene| names.contains(&scene.name.as_str())).collect();
     assert_eq!(chosen.len(), names.len());
     chosen.into_iter().enumerate().collect()
 }
@@ -106,7 +106,7 @@ fn scenes_of_two_contacts_and_of_edges_hold_every_bar() {
 fn no_closed_form_leads_through_a_wall_or_gains_energy() {
     use maze_verify::scene::Family::{FreeEnd, Narrow, RollOver, Slit, Step};
     let is_new = |scene: &Scene| matches!(scene.family, FreeEnd | Narrow | RollOver | Slit | Step);
-    let all = catalogue().into_iter().filter(|scene| scene.truth.is_some() && is_new(scene));
+    let all = catalogue().unwrap().into_iter().filter(|scene| scene.truth.is_some() && is_new(scene));
     let all: Vec<(usize, Scene)> = all.enumerate().collect();
     assert!(30 < all.len());
     for scene in run(&all, &[Contender::ClosedForm], &build, &|_| {}).unwrap() {

@@ -2,15 +2,15 @@
 
 use super::display;
 use crate::failure::Failure;
-use crate::files;
+use crate::frame::FramePainter;
 use crate::frame_log::{FrameLog, Stopwatch};
-use crate::game::to_f32;
+use crate::numbers::to_f32;
 use crate::overlay::Notes;
 use crate::quality::QualityChoice;
-use crate::ui::{self, Hud, Overlay};
+use crate::ui::{self, Hud};
 use image::RgbaImage;
 use maze_core::Maze;
-use maze_render::{Acquired, Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet, WindowTarget};
+use maze_render::{Acquired, Gpu, Quality, Scene, TextureSet, WindowTarget};
 use std::sync::Arc;
 use std::time::Duration;
 use winit::event_loop::{ActiveEventLoop, OwnedDisplayHandle};
@@ -40,10 +40,7 @@ pub(super) struct Graphics {
     display: OwnedDisplayHandle,
     gpu: Gpu,
     target: WindowTarget,
-    renderer: Renderer,
-    overlay: Overlay,
-    /// None where the adapter does not tell.
-    timer: Option<GpuTimer>,
+    painter: FramePainter,
     n_rebuilds: u32,
 }
 
@@ -69,23 +66,14 @@ impl Graphics {
             Gpu::for_window(window.clone(), Box::new(display.clone()), size).map_err(Failure::bad_input)?;
         let quality = quality(&gpu);
         target.set_srgb(&gpu, quality.wants_srgb_target());
-        let renderer = Renderer::with_quality(&gpu, target.format(), textures, quality);
-        for note in renderer.notes() {
-            files::note(note);
-        }
-        let overlay = Overlay::new(&gpu, target.format());
-        let timer = GpuTimer::new(&gpu);
-        Ok(Self { window, display, gpu, target, renderer, overlay, timer, n_rebuilds })
+        let painter = FramePainter::new(&gpu, target.format(), textures, quality);
+        Ok(Self { window, display, gpu, target, painter, n_rebuilds })
     }
 
     /// Draws at another quality or with other textures from now on. The maze has to be set again.
     pub(super) fn set_look(&mut self, quality: Quality, textures: &TextureSet) {
         self.target.set_srgb(&self.gpu, quality.wants_srgb_target());
-        self.renderer = Renderer::with_quality(&self.gpu, self.target.format(), textures, quality);
-        for note in self.renderer.notes() {
-            files::note(note);
-        }
-        self.overlay = Overlay::new(&self.gpu, self.target.format());
+        self.painter = FramePainter::new(&self.gpu, self.target.format(), textures, quality);
     }
 
     /// Until the adapter has drawn all that it was given.
@@ -95,7 +83,7 @@ impl Graphics {
     }
 
     pub(super) fn quality(&self) -> Quality {
-        self.renderer.quality()
+        self.painter.renderer.quality()
     }
 
     /// Name of the adapter, backend, driver.
@@ -116,7 +104,8 @@ impl Graphics {
     /// The scene and what is said of the method, without the rest of the HUD.
     pub(super) fn screenshot(&mut self, scene: &Scene, notes: &Notes) -> Result<RgbaImage, Failure> {
         let (size, scale) = (self.target.size(), self.scale());
-        ui::picture(&self.gpu, &mut self.renderer, size, scale, scene, notes).map_err(Failure::bad_input)
+        ui::picture(&self.gpu, &mut self.painter.renderer, size, scale, scene, notes)
+            .map_err(Failure::bad_input)
     }
 
     /// A new device in place of a lost one. The maze has to be set again.
@@ -133,7 +122,7 @@ impl Graphics {
     }
 
     pub(super) fn set_maze(&mut self, maze: &Maze, title: &str) -> Result<(), Failure> {
-        self.renderer.set_maze(&self.gpu, &maze.surface).map_err(Failure::bad_input)?;
+        self.painter.renderer.set_maze(&self.gpu, &maze.surface).map_err(Failure::bad_input)?;
         self.window.set_title(title);
         Ok(())
     }
@@ -153,13 +142,13 @@ impl Graphics {
 
     /// Width over height.
     pub(super) fn aspect(&self) -> f32 {
-        let [width, height] = self.target.size().map(|pixels| ui::to_points(pixels.max(1), 1.0));
+        let [width, height] = self.target.size().map(|pixels| crate::numbers::to_points(pixels.max(1), 1.0));
         width / height
     }
 
     /// Width and height in the units of the HUD.
     pub(super) fn size_points(&self) -> [f32; 2] {
-        self.target.size().map(|pixels| ui::to_points(pixels, self.scale()))
+        self.target.size().map(|pixels| crate::numbers::to_points(pixels, self.scale()))
     }
 
     fn scale(&self) -> f32 {
@@ -175,9 +164,7 @@ impl Graphics {
 
     /// Tells the log the adapter's times of earlier frames.
     pub(super) fn tell_times(&mut self, log: &mut FrameLog) {
-        while let Some((number, seconds)) = self.timer.as_mut().and_then(GpuTimer::take) {
-            log.set_gpu_time(number, seconds);
-        }
+        self.painter.note_times(log);
     }
 
     /// Draws and shows a frame, the log's number `number`.
@@ -192,21 +179,10 @@ impl Graphics {
         let watch = Stopwatch::start();
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let size = self.target.size();
-        let mut encoder = self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if let Some(timer) = &mut self.timer {
-            timer.begin(&mut encoder, number);
-        }
-        self.renderer.draw(&self.gpu, &mut encoder, &view, size, scene);
-        self.overlay.draw(&self.gpu, &mut encoder, &view, size, self.scale(), |ui| hud.show(ui));
-        if let Some(timer) = &mut self.timer {
-            timer.end(&mut encoder);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
+        let scale = self.scale();
+        self.painter.draw(&self.gpu, (&view, size, scale), scene, hud, number);
         let encode = watch.ms();
         let watch = Stopwatch::start();
-        if let Some(timer) = &mut self.timer {
-            timer.submitted();
-        }
         self.window.pre_present_notify();
         self.gpu.queue.present(frame);
         match self.gpu.take_error() {

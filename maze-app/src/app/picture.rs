@@ -7,9 +7,7 @@ use crate::files;
 use crate::input::{Action, Control};
 use crate::sidecar;
 use crate::source::Source;
-use image::ImageFormat;
 use maze_render::{Quality, TextureSet};
-use std::io::Cursor;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -90,11 +88,9 @@ impl App {
         let (Some(graphics), Some((scene, notes))) = (&mut self.graphics, self.idle.picture()) else {
             return;
         };
-        let saved = graphics.screenshot(&scene, &notes).and_then(|picture| {
-            let mut png = Cursor::new(Vec::new());
-            picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
-            files::write_numbered(Path::new(""), "maze", "png", png.get_ref())
-        });
+        let saved = graphics
+            .screenshot(&scene, &notes)
+            .and_then(|picture| files::write_numbered(Path::new(""), "maze", "png", &files::png(picture)?));
         self.notify(match saved {
             Ok(path) => format!("saved {}", path.display()),
             Err(failure) => failure.to_string(),
@@ -106,9 +102,9 @@ impl App {
 mod tests {
     use super::*;
     use crate::app::Options;
-    use crate::command::play::Setup;
     use crate::engine_kind::EngineKind;
     use crate::quality::QualityChoice;
+    use crate::setup::Setup;
     use crate::source::MazeArguments;
     use clap::Parser;
 

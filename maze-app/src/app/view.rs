@@ -1,6 +1,6 @@
 //! The camera: the whole maze at first, nearer with the ball in the middle when zoomed in.
 
-use crate::game::to_f32;
+use crate::numbers::to_f32;
 use maze_render::{Camera, FIELD_OF_VIEW_RAD};
 use nalgebra::Vector3;
 use std::time::Duration;

@@ -6,15 +6,13 @@ use crate::failure::Failure;
 use crate::files;
 use crate::game::Game;
 use crate::keeper::Keeper;
+use crate::setup::USUAL_MAX_TILT_DEGREES;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use maze_core::replay::MAX_TICKS;
 use maze_core::{Autopilot, Event, Phase};
 use serde_json::json;
 use std::path::PathBuf;
-
-/// The autopilot tilts no further than a player may.
-const MAX_TILT_DEGREES: f64 = 20.0;
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  maze-app autopilot my_maze.obj\n  maze-app autopilot --level 3\n  \
@@ -42,7 +40,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let mut game = Game::new(source.load()?, arguments.engine)?;
     let mut kept = arguments.record.as_deref().map(|path| Keeper::new(path, &game, &source)).transpose()?;
-    let half_tangent_limit = (MAX_TILT_DEGREES.to_radians() / 2.0).tan();
+    let half_tangent_limit = (USUAL_MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Ok(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
         return Err(no_path(&source, game.maze()));
     };

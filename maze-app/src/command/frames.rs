@@ -2,24 +2,27 @@
 
 use crate::app::{self, App, Options};
 use crate::clock::Clock;
-use crate::command::play::{Setup, parse_seconds};
 use crate::demo::Demo;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
+use crate::frame::FramePainter;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
-use crate::game::{Game, to_f32};
+use crate::game::Game;
 use crate::input::Keyboard;
 use crate::keeper::KeptFrames;
+use crate::numbers::to_f32;
+use crate::numbers::to_points;
 use crate::overlay::{Layers, Notes};
 use crate::plot;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
+use crate::setup::{Setup, USUAL_MAX_TILT_DEGREES, parse_seconds};
 use crate::source::{ReadArguments, Source};
-use crate::ui::{Hud, Labels, Overlay, to_points};
+use crate::ui::{Hud, Labels};
 use clap::Args;
 use maze_core::layout::{Algorithm, Recipe};
-use maze_render::{Camera, Gpu, GpuTimer, Quality, Renderer};
+use maze_render::{Camera, Gpu, Quality};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -27,9 +30,6 @@ use std::time::{Duration, Instant};
 /// The random maze that is played where no file is given.
 const SEED: u64 = 1;
 const GRID_SIZE: [usize; 2] = [14, 9];
-
-/// The autopilot tilts no further than a player may.
-const MAX_TILT_DEGREES: f64 = 20.0;
 
 /// Longest side of a picture that every adapter can draw (pixels).
 const EVERY_ADAPTER: u32 = 2048;
@@ -159,7 +159,7 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
         textures: files::textures(None)?,
         textures_flag: None,
         engine: EngineKind::Continuous,
-        max_tilt_rad: MAX_TILT_DEGREES.to_radians(),
+        max_tilt_rad: USUAL_MAX_TILT_DEGREES.to_radians(),
         state_log: None,
         record: None,
         csv: arguments.csv.clone(),
@@ -194,18 +194,15 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     app::leave_silent();
     let source = source(arguments);
     let mut game = Game::new(source.load()?, EngineKind::Continuous)?;
-    let max_tilt_rad = MAX_TILT_DEGREES.to_radians();
+    let max_tilt_rad = USUAL_MAX_TILT_DEGREES.to_radians();
     let mut demo = Demo::new(&game, max_tilt_rad)?;
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
     let quality = arguments.quality.on(&gpu);
     let size = arguments.size;
     expect_size(size, &gpu)?;
-    let mut renderer =
-        Renderer::with_quality(&gpu, quality.picture_format(), &files::textures(None)?, quality);
-    renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
-    let mut overlay = Overlay::new(&gpu, renderer.target_format());
-    let mut timer = GpuTimer::new(&gpu);
-    let view = picture(&gpu, renderer.target_format(), size);
+    let mut painter = FramePainter::new(&gpu, quality.picture_format(), &files::textures(None)?, quality);
+    painter.renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
+    let view = picture(&gpu, painter.renderer.target_format(), size);
     let aspect = to_points(size[0], 1.0) / to_points(size[1], 1.0);
     let camera = Camera::fitted(game.half_size(), aspect, to_f32(max_tilt_rad));
     let labels = Labels::new(&source, game.maze());
@@ -240,21 +237,9 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
             keyboard: &Keyboard::default(),
             frames: None,
         };
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        if let Some(timer) = &mut timer {
-            timer.begin(&mut encoder, log.next_number());
-        }
-        renderer.draw(&gpu, &mut encoder, &view, size, &scene);
-        overlay.draw(&gpu, &mut encoder, &view, size, 1.0, |ui| hud.show(ui));
-        if let Some(timer) = &mut timer {
-            timer.end(&mut encoder);
-        }
-        ahead.push_back(gpu.queue.submit([encoder.finish()]));
+        ahead.push_back(painter.draw(&gpu, (&view, size, 1.0), &scene, &hud, log.next_number()));
         let encode = watch.ms();
         let watch = Stopwatch::start();
-        if let Some(timer) = &mut timer {
-            timer.submitted();
-        }
         if N_FRAMES_AHEAD <= ahead.len() || first_frame.is_none() {
             let wait = wgpu::PollType::Wait { submission_index: ahead.pop_front(), timeout: None };
             gpu.device.poll(wait).map_err(Failure::bad_input)?;
@@ -264,9 +249,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
         if let Some(kept) = &kept {
             kept.add(&log);
         }
-        while let Some((number, seconds)) = timer.as_mut().and_then(GpuTimer::take) {
-            log.set_gpu_time(number, seconds);
-        }
+        painter.note_times(&mut log);
         if let Some(error) = gpu.take_error() {
             return Err(Failure::bad_input(error));
         }

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files;
-use crate::maze_file::Loaded;
+use crate::loaded::Loaded;
 use crate::measures;
 use crate::source::{KnownMazeArguments, Source};
 use clap::Args;

@@ -5,10 +5,10 @@ use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
 use crate::quality::QualityChoice;
+use crate::setup::{self, Setup, USUAL_MAX_TILT_DEGREES};
 use crate::sidecar;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
-use maze_render::TextureSet;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value_t = EngineKind::Continuous)]
     engine: EngineKind,
     /// Steepest tilt of the board, 1 to 45 degrees
-    #[arg(long, value_name = "DEGREES", value_parser = parse_max_tilt, default_value = "20")]
+    #[arg(long, value_name = "DEGREES", value_parser = setup::parse_max_tilt, default_value_t = USUAL_MAX_TILT_DEGREES)]
     max_tilt: f64,
     /// How much is spent on the picture; Q changes it
     #[arg(long, value_enum, default_value_t = QualityChoice::Auto)]
@@ -39,39 +39,11 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
     /// End by itself after this time
-    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = setup::parse_seconds)]
     exit_after: Option<Duration>,
     /// What happens while another window has the keyboard [default: pause; with --exit-after: run]
     #[arg(long, value_enum, value_name = "WHAT")]
     unfocused: Option<Unfocused>,
-}
-
-pub(crate) fn parse_max_tilt(text: &str) -> Result<f64, String> {
-    let degrees = text.parse().ok().filter(|degrees| (1.0..=45.0).contains(degrees));
-    degrees.ok_or_else(|| "expected 1 to 45 degrees".to_owned())
-}
-
-pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse().ok().filter(|seconds: &f64| 0.0 <= *seconds);
-    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-    duration.ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
-}
-
-/// What the window needs, all checked before it opens.
-pub(crate) struct Setup {
-    pub(crate) source: Source,
-    pub(crate) textures: TextureSet,
-    /// Where they come from whatever the maze.
-    pub(crate) textures_flag: Option<PathBuf>,
-    pub(crate) engine: EngineKind,
-    pub(crate) max_tilt_rad: f64,
-    pub(crate) state_log: Option<PathBuf>,
-    pub(crate) record: Option<PathBuf>,
-    /// Where frames are written when the program is ended from outside.
-    pub(crate) csv: Option<PathBuf>,
-    pub(crate) exit_after: Option<Duration>,
-    pub(crate) unfocused: Option<Unfocused>,
-    pub(crate) quality: QualityChoice,
 }
 
 pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {

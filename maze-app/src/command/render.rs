@@ -2,29 +2,26 @@
 
 use crate::app;
 use crate::app::view::{self, ZOOM_RANGE, zoomed};
-use crate::command::play::parse_max_tilt;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
-use crate::game::{Game, to_f32};
+use crate::game::Game;
+use crate::numbers::to_f32;
+use crate::numbers::to_points;
 use crate::overlay::{self, Layers};
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
+use crate::setup::{STEEPEST_DEGREES, parse_max_tilt};
 use crate::sidecar;
 use crate::source::{KnownMazeArguments, Source};
-use crate::ui::{self, to_points};
+use crate::ui;
 use clap::Args;
-use image::ImageFormat;
 use maze_core::Tilt;
 use maze_render::{Gpu, Renderer};
-use std::io::Cursor;
 use std::path::PathBuf;
 
 /// Most ticks that are simulated before the picture: an hour of play.
 const MAX_TICKS: u32 = 120_000;
-
-/// Steepest tilt of a picture (degrees): beyond it the board would be seen from its edge.
-const MAX_TILT_DEGREES: f64 = 45.0;
 
 #[derive(Args)]
 #[command(
@@ -78,11 +75,11 @@ fn parse_zoom(text: &str) -> Result<f64, String> {
 
 /// Two angles; the board turns about the axis across their direction by the length of the pair.
 fn parse_tilt(text: &str) -> Result<Tilt, String> {
-    let expected = || format!("expected X,Y in degrees, such as 8,-5, together at most {MAX_TILT_DEGREES}");
+    let expected = || format!("expected X,Y in degrees, such as 8,-5, together at most {STEEPEST_DEGREES}");
     let (x, y) = text.split_once(',').ok_or_else(expected)?;
     let [x, y]: [f64; 2] = [x, y].map(|word| word.trim().parse().unwrap_or(f64::NAN));
     let degrees = (x * x + y * y).sqrt();
-    if degrees.is_nan() || MAX_TILT_DEGREES < degrees {
+    if degrees.is_nan() || STEEPEST_DEGREES < degrees {
         return Err(expected());
     }
     if degrees == 0.0 {
@@ -126,9 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let notes = overlay::add(layers, &game, &mut scene, arguments.size);
     let picture = ui::picture(&gpu, &mut renderer, arguments.size, 1.0, &scene, &notes);
     let picture = picture.map_err(Failure::bad_input)?;
-    let mut png = Cursor::new(Vec::new());
-    picture.write_to(&mut png, ImageFormat::Png).map_err(Failure::bad_input)?;
-    files::write_whole(&arguments.out, png.get_ref())
+    files::write_whole(&arguments.out, &files::png(picture)?)
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 mod pen;
 mod table;
 
-use crate::game::{Game, to_f32};
-use crate::ui::to_points;
+use crate::game::Game;
+use crate::numbers::to_f32;
+use crate::numbers::to_points;
 use maze_core::trace::{self, GroupVisit, SearchTrace};
 use maze_core::{Facing, Hit, Path, Plane, SweepQuery, contact, gravity};
 use maze_render::Scene;

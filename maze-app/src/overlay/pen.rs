@@ -1,7 +1,7 @@
 //! Lines, arrows, rings and wall faces as the renderer's lines and patches.
 
 use super::{Colour, QUIET};
-use crate::game::to_f32;
+use crate::numbers::to_f32;
 use maze_core::{Bounds, Plane};
 use maze_render::{Line, Patch};
 use nalgebra::{Point3, Vector2, Vector3};

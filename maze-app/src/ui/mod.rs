@@ -10,6 +10,7 @@ pub(crate) use hud::{Hud, Labels};
 pub(crate) use letters::window_title;
 pub(crate) use notes_panel::covered_width;
 
+use crate::numbers::to_points;
 use crate::overlay::Notes;
 use egui::ClippedPrimitive;
 use egui::epaint::{ImageData, Primitive};
@@ -102,12 +103,6 @@ fn batch(shape: ClippedPrimitive) -> Option<PaintBatch> {
 
 fn to_u32(side: usize) -> u32 {
     u32::try_from(side).unwrap_or(u32::MAX)
-}
-
-/// Pixels in the units of the HUD: the window system's scale taken out.
-#[allow(clippy::cast_precision_loss, reason = "no window is 2^24 pixels wide")]
-pub(crate) fn to_points(pixels: u32, scale: f32) -> f32 {
-    pixels as f32 / scale
 }
 
 #[cfg(test)]

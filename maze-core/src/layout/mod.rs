@@ -23,6 +23,17 @@ use std::collections::BTreeSet;
 /// Most cells of a layout along each side.
 const MAX_SIDE: usize = 1024;
 
+/// The cells to the right, to the left, above and below a cell of a grid, given as `y * width + x`.
+pub(crate) fn neighbours(cell: usize, [width, height]: [usize; 2]) -> [Option<usize>; 4] {
+    let (x, y) = (cell % width, cell / width);
+    [
+        (x + 1 < width).then(|| cell + 1),
+        (0 < x).then(|| cell - 1),
+        (y + 1 < height).then(|| cell + width),
+        (0 < y).then(|| cell - width),
+    ]
+}
+
 /// A rectangle of cells; each pair of neighbours is joined by a passage or parted by a wall.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
@@ -87,11 +98,12 @@ impl Layout {
     /// The cells that passages lead to from a cell, both given as `y * width + x`.
     pub(crate) fn open_neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
         let (x, y) = (cell % self.width, cell / self.width);
+        let [right, left, above, below] = neighbours(cell, [self.width, self.height]);
         let open = [
-            self.is_open_east(x, y).then(|| cell + 1),
-            (0 < x && self.is_open_east(x - 1, y)).then(|| cell - 1),
-            self.is_open_north(x, y).then(|| cell + self.width),
-            (0 < y && self.is_open_north(x, y - 1)).then(|| cell - self.width),
+            right.filter(|_| self.is_open_east(x, y)),
+            left.filter(|_| self.is_open_east(x - 1, y)),
+            above.filter(|_| self.is_open_north(x, y)),
+            below.filter(|_| self.is_open_north(x, y - 1)),
         ];
         open.into_iter().flatten()
     }

@@ -3,7 +3,7 @@
 //! The sum is with a square and not with a disc, so a gap that the ball could only take diagonally counts as closed.
 
 use crate::assembly::occupancy::Occupancy;
-use crate::layout::CorridorGraph;
+use crate::layout::{self, CorridorGraph};
 use nalgebra::Vector2;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -125,15 +125,8 @@ impl ConfigurationSpace {
 
     /// The free cells beside a cell.
     pub(crate) fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> {
-        let n_x = self.n_x();
-        let (i, j) = (cell % n_x, cell / n_x);
-        let neighbours = [
-            (0 < i).then(|| cell - 1),
-            (i + 1 < n_x).then(|| cell + 1),
-            (0 < j).then(|| cell - n_x),
-            (j + 2 < self.ys.len()).then(|| cell + n_x),
-        ];
-        neighbours.into_iter().flatten().filter(|next| self.free[*next])
+        let [right, left, above, below] = layout::neighbours(cell, [self.n_x(), self.ys.len() - 1]);
+        [left, right, below, above].into_iter().flatten().filter(|next| self.free[*next])
     }
 
     /// The corridors that lead from a free cell, and which place of theirs each of these two cells is; `None` when the ball

@@ -28,19 +28,19 @@ impl Board {
         solid[1][1] = false;
         let mut path = vec![(1_usize, 1_usize)];
         while let Some(&(x, y)) = path.last() {
-            let mut ways = vec![];
+            let mut next_cells = vec![];
             for (dx, dy) in [(2_isize, 0_isize), (-2, 0), (0, 2), (0, -2)] {
                 let (Some(tx), Some(ty)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else {
                     continue;
                 };
                 if tx < 2 * n_x + 1 && ty < 2 * n_y + 1 && solid[ty][tx] {
-                    ways.push((tx, ty));
+                    next_cells.push((tx, ty));
                 }
             }
-            if ways.is_empty() {
+            if next_cells.is_empty() {
                 path.pop();
             } else {
-                let (tx, ty) = ways[random(ways.len())];
+                let (tx, ty) = next_cells[random(next_cells.len())];
                 solid[usize::midpoint(y, ty)][usize::midpoint(x, tx)] = false;
                 solid[ty][tx] = false;
                 path.push((tx, ty));
@@ -108,6 +108,15 @@ impl Board {
             }
         }
         mesh
+    }
+
+    /// The scene without ball, start and goal.
+    pub(crate) fn bare_scene(&self, aspect: f32) -> Scene {
+        let mut scene = self.scene(aspect);
+        scene.ball.radius = 0.0;
+        scene.start.radius = 0.0;
+        scene.goal.radius = 0.0;
+        scene
     }
 
     /// The ball in the first cell, seen whole.

@@ -63,10 +63,13 @@ pub(super) fn scene(name: impl Into<String>, about: impl Into<String>, family: F
 }
 
 /// Every named scene, in the order of the report.
-pub fn catalogue() -> Vec<Scene> {
+///
+/// # Errors
+/// The game's levels, compiled in, that can't be read.
+pub fn catalogue() -> Result<Vec<Scene>, String> {
     let groups =
-        [tilts(), bounces(), drops(), corners(), slides(), speeds(), contacts::scenes(), mazes(), levels()];
-    groups.into_iter().flatten().collect()
+        [tilts(), bounces(), drops(), corners(), slides(), speeds(), contacts::scenes(), mazes(), levels()?];
+    Ok(groups.into_iter().flatten().collect())
 }
 
 fn tilts() -> Vec<Scene> {
@@ -313,7 +316,7 @@ fn mazes() -> Vec<Scene> {
     (1..=N_MAZES).map(maze).collect()
 }
 
-fn levels() -> Vec<Scene> {
+fn levels() -> Result<Vec<Scene>, String> {
     let level = |name: String, title: &str, walls: Walls| Scene {
         walls,
         gravity: Gravity::Random { seed: 1, hold_s: HOLD_S, max_deg: LEVEL_MAX_DEG },
@@ -323,8 +326,8 @@ fn levels() -> Vec<Scene> {
     };
     let default = include_bytes!("../../../assets/mazes/default.obj").to_vec();
     let default = level("level-default".to_owned(), "default maze", Walls::Obj(default));
-    let numbered = (1..).zip(levels::recipes()).map(|(number, (title, recipe))| {
+    let numbered = (1..).zip(levels::recipes()?).map(|(number, (title, recipe))| {
         level(format!("level-{number:02}"), &format!("level {number}, {title},"), Walls::Generated(recipe))
     });
-    std::iter::once(default).chain(numbered).collect()
+    Ok(std::iter::once(default).chain(numbered).collect())
 }

@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn every_scene_of_the_catalogue_stands_and_has_a_name_of_its_own() {
         let mut names = std::collections::BTreeSet::new();
-        for scene in catalogue() {
+        for scene in catalogue().unwrap() {
             let stage = scene.set_up().unwrap_or_else(|error| panic!("{}: {error}", scene.name));
             assert!(names.insert(scene.name.clone()), "{} twice", scene.name);
             assert!(!scene.about.is_empty() && !scene.ticks_s.is_empty() && 0 < stage.n_ticks(0.03));
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn a_ball_in_a_wall_is_refused() {
-        let mut scene = catalogue().swap_remove(0);
+        let mut scene = catalogue().unwrap().swap_remove(0);
         scene.walls =
             Walls::Rectangles(vec![Bounds { low: Vector2::new(-9.0, -9.0), high: Vector2::new(9.0, 9.0) }]);
         assert!(matches!(scene.set_up(), Err(SceneError::InWall { .. })));

@@ -2,7 +2,7 @@
 
 use super::SvgError;
 use super::numbers::{self, Token, Tokens, Transform};
-use super::style::{Named, Rgb, Sheets, Style};
+use super::style::{Named, PROPERTIES, Rgb, Sheets, Style};
 use crate::physics::numbers::{greater, lesser};
 use quick_xml::Reader as XmlReader;
 use quick_xml::events::{BytesStart, Event};
@@ -310,8 +310,8 @@ struct Attributes {
     known: BTreeMap<&'static str, String>,
 }
 
-/// Their names.
-const KNOWN: [&str; 30] = [
+/// Their names, but for those that decide about paint.
+const GEOMETRY: [&str; 19] = [
     "x1",
     "y1",
     "x2",
@@ -329,17 +329,6 @@ const KNOWN: [&str; 30] = [
     "d",
     "transform",
     "style",
-    "stroke",
-    "fill",
-    "stroke-width",
-    "stroke-opacity",
-    "fill-opacity",
-    "opacity",
-    "display",
-    "visibility",
-    "color",
-    "fill-rule",
-    "stroke-linecap",
     "viewBox",
     "href",
 ];
@@ -460,7 +449,7 @@ impl<'a> Reader<'a> {
             let attribute = attribute.map_err(|error| self.not_xml(error.to_string()))?;
             let key = attribute.key.as_ref();
             let key = if key == b"xlink:href" { b"href" } else { key };
-            if let Some(name) = KNOWN.iter().find(|name| name.as_bytes() == key) {
+            if let Some(name) = GEOMETRY.iter().chain(&PROPERTIES).find(|name| name.as_bytes() == key) {
                 // The whole file is UTF-8.
                 attributes.known.insert(name, String::from_utf8_lossy(&attribute.value).into_owned());
             }

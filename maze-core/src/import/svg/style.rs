@@ -18,7 +18,7 @@ const LEAST_OPACITY: f64 = 0.1;
 pub(super) type Rgb = [u8; 3];
 
 /// The properties that decide about paint, as attributes and declarations name them.
-const PROPERTIES: [&str; 11] = [
+pub(super) const PROPERTIES: [&str; 11] = [
     "stroke",
     "fill",
     "stroke-width",

@@ -11,7 +11,7 @@ mod wilson;
 pub use backtracker::recursive_backtracker;
 pub use eller::{EllerRow, EllerRows};
 
-use super::{Layout, LayoutSizeError};
+use super::{Layout, LayoutSizeError, neighbours};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use std::fmt::{Display, Formatter};
@@ -188,23 +188,13 @@ fn chance(rng: &mut impl Rng, probability: f64) -> bool {
     f64::from(rng.next_u32()) < probability * 4_294_967_296.0
 }
 
-/// The cells to the right, left, above and below, walls or not.
-fn neighbours(layout: &Layout, cell: usize) -> [Option<usize>; 4] {
-    let Layout { width, height, .. } = *layout;
-    let (x, y) = (cell % width, cell / width);
-    [
-        (x + 1 < width).then(|| cell + 1),
-        (0 < x).then(|| cell - 1),
-        (y + 1 < height).then(|| cell + width),
-        (0 < y).then(|| cell - width),
-    ]
-}
-
 /// A random one of the neighbours that have not been visited; `None`, without drawing, when there is none.
 fn unvisited_neighbour(layout: &Layout, cell: usize, visited: &[bool], rng: &mut impl Rng) -> Option<usize> {
     let mut unvisited = [0; 4];
     let mut n_unvisited = 0;
-    for next in neighbours(layout, cell).into_iter().flatten().filter(|next| !visited[*next]) {
+    for next in
+        neighbours(cell, [layout.width, layout.height]).into_iter().flatten().filter(|next| !visited[*next])
+    {
         unvisited[n_unvisited] = next;
         n_unvisited += 1;
     }

@@ -15,7 +15,8 @@ pub(super) fn prim(width: usize, height: usize, seed: u64) -> Result<Layout, Lay
     let mut newest = height / 2 * width + width / 2;
     is_joined[newest] = true;
     loop {
-        let outside = neighbours(&layout, newest).into_iter().flatten().filter(|next| !is_joined[*next]);
+        let outside =
+            neighbours(newest, [width, height]).into_iter().flatten().filter(|next| !is_joined[*next]);
         rim.extend(outside.map(|next| (newest, next)));
         // Walls to cells that have joined meanwhile are dropped when drawn.
         (newest, _) = loop {

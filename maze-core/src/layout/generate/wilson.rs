@@ -18,7 +18,7 @@ pub(super) fn wilson(width: usize, height: usize, seed: u64) -> Result<Layout, L
     for first in 0..n_cells {
         let mut cell = first;
         while !is_joined[cell] {
-            let beside = neighbours(&layout, cell);
+            let beside = neighbours(cell, [width, height]);
             let next = loop {
                 if let Some(next) = beside[below(&mut rng, 4)] {
                     break next;
