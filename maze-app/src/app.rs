@@ -11,7 +11,6 @@ pub(crate) mod view;
 mod watch;
 
 pub(crate) use display::{event_loop, leave_silent};
-pub(crate) use presence::Unfocused;
 
 use crate::clock::Clock;
 use crate::demo::Demo;
@@ -24,7 +23,7 @@ use crate::numbers::to_f32;
 use crate::overlay::{self, Layers, Notes};
 use crate::quality::QualityChoice;
 use crate::rescue::{self, OpenWindow};
-use crate::setup::Setup;
+use crate::setup::{Setup, Unfocused};
 use crate::slowness::Slowness;
 use crate::source::Source;
 use crate::state_log::{State, StateLog};

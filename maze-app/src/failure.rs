@@ -2,6 +2,7 @@
 
 use maze_core::printable;
 use std::fmt::{Display, Formatter};
+use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -42,4 +43,10 @@ impl Display for Failure {
         // One line that does no harm, whatever a library or a file said.
         formatter.write_str(&printable(reason))
     }
+}
+
+/// Prints a note that is no failure, on stderr.
+pub(crate) fn note(text: &str) {
+    // Where nobody reads it, nothing is lost.
+    let _ = writeln!(std::io::stderr(), "maze-app: {}", printable(text));
 }

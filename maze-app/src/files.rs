@@ -3,7 +3,6 @@
 use crate::failure::Failure;
 use crate::rescue;
 use image::{DynamicImage, ImageFormat};
-use maze_core::printable;
 use maze_render::{TextureSet, decode_texture};
 use std::fs;
 use std::io::Cursor;
@@ -242,12 +241,6 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
-}
-
-/// Tells something that is no failure, on stderr.
-pub(crate) fn note(text: &str) {
-    // Where nobody reads it, nothing is lost.
-    let _ = writeln!(std::io::stderr(), "maze-app: {}", printable(text));
 }
 
 /// Checks an output's name before the work is done for it.

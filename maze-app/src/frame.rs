@@ -1,6 +1,6 @@
 //! What draws a frame, in a window and without one: the maze, the HUD over it, and the adapter's time for both.
 
-use crate::files;
+use crate::failure;
 use crate::frame_log::FrameLog;
 use crate::ui::{Hud, Overlay};
 use maze_render::{Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet};
@@ -18,7 +18,7 @@ impl FramePainter {
     pub(crate) fn new(gpu: &Gpu, format: TextureFormat, textures: &TextureSet, quality: Quality) -> Self {
         let renderer = Renderer::with_quality(gpu, format, textures, quality);
         for note in renderer.notes() {
-            files::note(note);
+            failure::note(note);
         }
         let overlay = Overlay::new(gpu, renderer.target_format());
         Self { renderer, overlay, timer: GpuTimer::new(gpu) }

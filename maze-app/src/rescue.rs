@@ -1,8 +1,7 @@
 //! What must not be lost, nor left behind, when the program is ended from outside: by a signal, by a window system that goes
 //! away, or by one that does not answer any more.
 
-use crate::failure::Failure;
-use crate::files;
+use crate::failure::{self, Failure};
 use maze_core::printable;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -69,7 +68,7 @@ fn save_all() -> MutexGuard<'static, Vec<PathBuf>> {
     let saves = lock(&SAVES).clone();
     for save in saves {
         if let Err(failure) = save() {
-            files::note(&failure.to_string());
+            failure::note(&failure.to_string());
         }
     }
     let mut temporary = lock(&TEMPORARY);

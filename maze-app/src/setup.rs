@@ -1,9 +1,9 @@
 //! What the game is set up with, checked before a window opens.
 
-use crate::app::Unfocused;
 use crate::engine_kind::EngineKind;
 use crate::quality::QualityChoice;
 use crate::source::Source;
+use clap::ValueEnum;
 use maze_render::TextureSet;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -13,6 +13,16 @@ pub(crate) const USUAL_MAX_TILT_DEGREES: f64 = 20.0;
 
 /// Steepest tilt there is (degrees): beyond it the board would be seen from its edge.
 pub(crate) const STEEPEST_DEGREES: f64 = 45.0;
+
+/// What happens while the window is in view and another one has the keyboard.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Unfocused {
+    /// The game's time stands until the window has the keyboard again
+    #[default]
+    Pause,
+    /// The game goes on
+    Run,
+}
 
 /// What the window needs, all checked before it opens.
 pub(crate) struct Setup {

@@ -1,17 +1,7 @@
 //! Whether the player is there: the game's time stands while nobody can see it, and while another window has the keyboard.
 
 use super::watch::Watch;
-use clap::ValueEnum;
-
-/// What happens while the window is in view and another one has the keyboard.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Unfocused {
-    /// The game's time stands until the window has the keyboard again
-    #[default]
-    Pause,
-    /// The game goes on
-    Run,
-}
+use crate::setup::Unfocused;
 
 /// What the window system has said of the window.
 #[derive(Default)]

@@ -1,11 +1,11 @@
 //! `maze-app play`: the game in a window.
 
-use crate::app::{self, App, Options, Unfocused};
+use crate::app::{self, App, Options};
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::files;
 use crate::quality::QualityChoice;
-use crate::setup::{self, Setup, USUAL_MAX_TILT_DEGREES};
+use crate::setup::{self, Setup, USUAL_MAX_TILT_DEGREES, Unfocused};
 use crate::sidecar;
 use crate::source::{MazeArguments, Source};
 use clap::Args;

@@ -3,7 +3,7 @@
 use crate::app;
 use crate::app::view::{self, ZOOM_RANGE, zoomed};
 use crate::engine_kind::EngineKind;
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::files;
 use crate::game::Game;
 use crate::numbers::to_f32;
@@ -107,7 +107,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let quality = arguments.quality.on(&gpu);
     let mut renderer = Renderer::with_quality(&gpu, quality.picture_format(), &textures, quality);
     for note in renderer.notes() {
-        files::note(note);
+        failure::note(note);
     }
     renderer.set_maze(&gpu, &game.maze().surface).map_err(Failure::bad_input)?;
     let aspect = to_points(arguments.size[0], 1.0) / to_points(arguments.size[1], 1.0);
