@@ -91,7 +91,7 @@ pub use {
     assembly::draft::PlanError,
     assembly::error::{AssembleError, Misfit},
     assembly::from_layout::BlocksError,
-    assembly::polygons::{PolygonMesh, UpAxis},
+    assembly::polygons::{MeshError, PolygonMesh, UpAxis},
     assembly::{extrude, surface},
     layout::Layout,
     layout::blocks::{Blocks, MAX_GRID_CELLS},

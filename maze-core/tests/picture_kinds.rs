@@ -110,7 +110,13 @@ proptest! {
         let (wall, corridor) = (8, 20);
         let clean = drawn(seed, [wall, corridor], 10, [BLACK, WHITE]);
         let plain = clean.maze();
-        let noise = |index: usize| (index as u64 ^ spots).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+        // splitmix64: a plain product of the index would set the specks in lines, which are walls.
+        let noise = |index: usize| {
+            let mut z = spots.wrapping_add((index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            (z ^ (z >> 31)) >> 40
+        };
         // A speck of one pixel in every 300, and noise of a compressed picture everywhere.
         let noisy = clean.mapped(|index, pixel| {
             let pixel = if noise(index) % 300 == 0 { pixel.map(|tone| 255 - tone) } else { pixel };

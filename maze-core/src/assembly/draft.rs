@@ -55,6 +55,7 @@ const MAX_TIED_PERCENT: f64 = 1.0;
 
 /// Why wall faces make no ground plan.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// The walls do not close.
     #[error(

@@ -18,6 +18,7 @@ pub(crate) const CORRIDORS: RangeInclusive<f64> = 0.1..=100.0;
 
 /// What the off-axis part of a mesh mostly is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Misfit {
     /// Walls along the axes that do not stand upright.
     Leaning,

@@ -81,7 +81,7 @@ impl<W: Fn(usize, usize) -> bool> Grid<W> {
         }
         // Coordinates are finite and countable, and corners are numbered positions.
         let mut mesh = PolygonMesh::new(corners.positions).unwrap_or_default();
-        let all_known = faces.iter().all(|face| mesh.push_face(face));
+        let all_known = faces.iter().all(|face| mesh.push_face(face).is_ok());
         debug_assert!(all_known, "every corner is a position");
         mesh
     }

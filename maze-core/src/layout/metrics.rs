@@ -1,8 +1,9 @@
 //! What a maze is like: numbers about its corridors and its solution.
 
 use super::corridors::{CorridorGraph, Step};
-use super::solve::Solution;
+use super::solve::{MOST_COUNTED, Solution};
 use crate::physics::numbers::to_f64;
+use std::fmt::{Display, Formatter};
 
 /// Numbers about all places that can be reached from the start. Lengths are in the unit of the [`CorridorGraph`]: cells for a layout,
 /// corridors for a maze.
@@ -79,6 +80,33 @@ impl Metrics {
             n_loops: n_links + 1 - reached.len(),
             difficulty: difficulty(graph, &solution, &steps, &reached),
         })
+    }
+}
+
+/// Lines of text: a name and its figures each. Lengths are in the unit of the graph.
+impl Display for Metrics {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
+        let shortest_without_walls = self.directness * self.solution_length;
+        let uniqueness = match (self.is_unique, self.n_shortest) {
+            (true, _) => "the only one".to_owned(),
+            (false, 1) => "the only one as short".to_owned(),
+            (false, MOST_COUNTED) => format!("one of {MOST_COUNTED} or more as short"),
+            (false, n) => format!("one of {n} as short"),
+        };
+        let Self { solution_length, n_turns, straightness, n_dead_ends, dead_end_length, .. } = self;
+        write!(
+            formatter,
+            "path         {solution_length:.1} long (without walls {shortest_without_walls:.1}), "
+        )?;
+        writeln!(formatter, "{n_turns} turns, {uniqueness}")?;
+        writeln!(formatter, "straightness {straightness:.2} from turn to turn")?;
+        match n_dead_ends {
+            0 => writeln!(formatter, "dead ends    none")?,
+            n => writeln!(formatter, "dead ends    {n}, on average {dead_end_length:.1} off the path")?,
+        }
+        let Self { n_junctions, n_crossroads, n_loops, difficulty, .. } = self;
+        writeln!(formatter, "junctions    {n_junctions}, crossroads {n_crossroads}, loops {n_loops}")?;
+        write!(formatter, "difficulty   {difficulty:.1} (after McClendon 2001)")
     }
 }
 

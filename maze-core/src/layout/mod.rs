@@ -35,6 +35,17 @@ pub(crate) fn neighbours(cell: usize, [width, height]: [usize; 2]) -> [Option<us
 }
 
 /// A rectangle of cells; each pair of neighbours is joined by a passage or parted by a wall.
+///
+/// ```
+/// use maze_core::layout::{Door, Layout, Side};
+/// use maze_core::AssembleOptions;
+///
+/// let mut hall = Layout::walled(2, 1)?; // two cells, walled in
+/// hall.open_door(Door { side: Side::Left, index: 0 })?;
+/// let maze = hall.maze(&AssembleOptions::default())?;
+/// assert!(!maze.planes.is_empty());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     width: usize,

@@ -29,6 +29,7 @@ impl Phase {
 
 /// Something that happened in one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Event {
     /// The board was tilted for the first time.
     Started,
@@ -39,6 +40,25 @@ pub enum Event {
 }
 
 /// One attempt at a maze.
+///
+/// ```
+/// use maze_core::layout::{Algorithm, Recipe};
+/// use maze_core::{Autopilot, Engine, Phase, Run, gravity};
+///
+/// let maze = Recipe::new(8, 6, Algorithm::Eller, 1).maze()?;
+/// let mut engine = maze.exact_engine(0.03)?;
+/// let mut autopilot = Autopilot::new(&maze, 0.17)?; // the tangent of half of 20 degrees
+/// let mut run = Run::new(&maze);
+/// while run.phase() != Phase::Finished {
+///     let (tilt, from) = (autopilot.tilt(engine.ball()), engine.ball().position);
+///     let tick = engine.tick(gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze()))?;
+///     for event in run.observe(tilt, [from, engine.ball().position], &tick) {
+///         println!("tick {}: {event:?}", run.n_ticks());
+///     }
+/// #   assert!(run.n_ticks() < 10_000);
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
     goal: Vector2<f64>,
@@ -69,7 +89,7 @@ impl Run {
         tilt: Tilt,
         [from, to]: [Vector2<f64>; 2],
         tick: &Tick,
-    ) -> impl Iterator<Item = Event> {
+    ) -> impl Iterator<Item = Event> + use<> {
         let mut events = [None; 3];
         if self.phase == Phase::Ready && tilt != Tilt::LEVEL {
             self.phase = Phase::Playing;

@@ -14,6 +14,7 @@ use tobj::{LoadError, LoadOptions, Model};
 
 /// Why bytes are no OBJ.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ObjError {
     /// Nothing to read.
     #[error("the file is empty: expected a Wavefront OBJ")]
@@ -102,6 +103,16 @@ const MAX_REPEATS: usize = 4;
 ///
 /// # Errors
 /// Bytes that are not an OBJ, with the line where there is one.
+///
+/// ```
+/// use maze_core::{AssembleOptions, Maze, import};
+///
+/// // A maze would have more than one upright face: this one is refused with the reason.
+/// let mesh = import::obj::read(b"v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n")?;
+/// let error = Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap_err();
+/// println!("{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read(bytes: &[u8]) -> Result<PolygonMesh, ObjError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(ObjError::Empty);
@@ -145,7 +156,7 @@ fn joined(models: Vec<Model>, counts: &Counts) -> Option<PolygonMesh> {
         let own = model.mesh.positions.chunks_exact(3);
         positions.extend(own.map(|position| Vector3::new(position[0], position[1], position[2])));
     }
-    let mut mesh = PolygonMesh::new(positions)?;
+    let mut mesh = PolygonMesh::new(positions).ok()?;
     mesh.reserve(counts.n_faces, counts.n_corners);
     for (first_position, mut corners, mut arities) in faces {
         corners.iter_mut().for_each(|corner| *corner += first_position);
@@ -157,7 +168,7 @@ fn joined(models: Vec<Model>, counts: &Counts) -> Option<PolygonMesh> {
         for arity in arities {
             let (face, tail) = rest.split_at_checked(arity as usize)?;
             rest = tail;
-            mesh.push_face(face).then_some(())?;
+            mesh.push_face(face).ok()?;
         }
     }
     Some(mesh)

@@ -21,6 +21,7 @@ pub const MAX_PIXELS: usize = 1 << 22;
 
 /// Why a picture is no maze.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PictureError {
     /// Too many pixels, or none.
     #[error("{width} x {height} pixels: expected at least 1 and at most {max} in all", max = MAX_PIXELS)]
@@ -98,6 +99,17 @@ pub struct Picture {
 ///
 /// # Errors
 /// A picture that is too large, has one tone alone, or turned walls.
+///
+/// ```
+/// use maze_core::AssembleOptions;
+/// use maze_core::import::picture;
+///
+/// let rows = ["# ####", "# #  #", "#   ##", "### ##"];
+/// let rgb: Vec<[u8; 3]> = rows.concat().chars().map(|sign| if sign == '#' { [0; 3] } else { [255; 3] }).collect();
+/// let maze = picture::read(6, 4, &rgb, None)?.maze(&AssembleOptions::default())?;
+/// assert_eq!(maze.openings.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read(
     width: usize,
     height: usize,

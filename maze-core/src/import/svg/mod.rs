@@ -16,6 +16,7 @@ use drawing::Drawing;
 
 /// Why an SVG is no rectangular maze.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SvgError {
     /// There is nothing.
     #[error("the file is empty: expected an SVG")]
@@ -255,6 +256,17 @@ pub enum SvgPlan {
 ///
 /// # Errors
 /// With the line where there is one.
+///
+/// ```
+/// use maze_core::layout::{Algorithm, Recipe};
+/// use maze_core::{AssembleOptions, export, import};
+///
+/// let layout = Recipe::new(6, 4, Algorithm::Prim, 1).layout()?.with_doors_top_and_bottom();
+/// let svg = export::svg::write(&layout, None, "a maze");
+/// let plan = import::svg::read(svg.as_bytes())?;
+/// assert_eq!(plan.maze(&AssembleOptions::default())?.planes, layout.maze(&AssembleOptions::default())?.planes);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read(bytes: &[u8]) -> Result<SvgPlan, SvgError> {
     let drawing = drawing::read(bytes)?;
     let painted = || {

@@ -68,6 +68,7 @@ impl TextOptions {
 
 /// Why a text is no maze.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TextError {
     /// There is nothing.
     #[error("the file is empty: expected a maze, such as one of `#`, blanks, `S` and `G`")]
@@ -269,6 +270,16 @@ impl TextMaze {
 ///
 /// # Errors
 /// With line and column.
+///
+/// ```
+/// use maze_core::import::text::{self, TextOptions};
+/// use maze_core::AssembleOptions;
+///
+/// let text = "# ####\n# #  #\n#   ##\n### ##\n";
+/// let maze = text::read(text.as_bytes(), &TextOptions::default())?.maze(&AssembleOptions::default())?;
+/// assert_eq!(maze.openings.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn read(bytes: &[u8], options: &TextOptions) -> Result<TextMaze, TextError> {
     let text = decode(bytes)?;
     let lines = grid::lines(&text)?;

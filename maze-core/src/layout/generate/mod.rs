@@ -19,6 +19,7 @@ use std::str::FromStr;
 
 /// How a maze is made. Every one of them makes a perfect maze: one path between any two cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Algorithm {
     /// Depth-first search: long winding corridors, few dead ends.
     #[default]
@@ -77,6 +78,17 @@ impl FromStr for Algorithm {
 }
 
 /// All that a generated maze depends on.
+///
+/// ```
+/// use maze_core::layout::{Algorithm, CorridorGraph, Metrics, Recipe};
+///
+/// let recipe = Recipe { braid: 0.5, ..Recipe::new(12, 9, Algorithm::Kruskal, 7) };
+/// let layout = recipe.layout()?;
+/// let solution = layout.solution().ok_or("no path")?; // cells, y * width + x
+/// let metrics = Metrics::new(&CorridorGraph::of_layout(&layout), solution[0], solution[solution.len() - 1]);
+/// println!("{}", metrics.ok_or("no path")?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Recipe {
     /// Cells along x.
@@ -98,6 +110,7 @@ pub struct Recipe {
 
 /// What no maze can be made of.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RecipeError {
     /// Too small or too large.
     #[error(transparent)]

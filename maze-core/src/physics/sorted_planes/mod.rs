@@ -28,6 +28,17 @@ const MAX_PLANES: usize = 1 << 28;
 ///
 /// A plane takes 8 bytes and its share of its row's bucket index about 2: start and end are kept as ranks among the coordinates
 /// of their axis, which a maze uses again and again. Where every plane has coordinates and a row of its own it is some 100.
+///
+/// ```
+/// use maze_core::{Facing, Plane, SortedPlanes};
+/// use maze_core::nalgebra::Vector2;
+///
+/// let wall = Plane { facing: Facing::MinusX, offset: 5.0, start: -1.0, end: 1.0 };
+/// let planes = SortedPlanes::new([wall])?;
+/// let nearest = planes.clearance(Vector2::new(2.0, 0.5)).ok_or("no plane")?;
+/// assert_eq!((nearest.plane, nearest.distance), (wall, 3.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct SortedPlanes {
     axes: [Coordinates; 2],

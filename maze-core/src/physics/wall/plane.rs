@@ -90,6 +90,7 @@ pub struct Plane {
 
 /// Why a plane cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlaneError {
     /// A coordinate is NaN or infinite.
     #[error("plane {index} ({facing}): a coordinate is not finite", facing = .plane.facing.name())]
