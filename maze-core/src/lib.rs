@@ -10,9 +10,9 @@
 //! let maze = Recipe::new(20, 20, Algorithm::Wilson, 3).maze()?;
 //! let mut engine = maze.exact_engine(0.01)?; // ticks of 0.01 s
 //! for hit in engine.simulate(Tilt::degrees(5.0, 0.0), 10.0)? {
-//!     println!("{:.3} s: onto {} with {:.2} units/s", hit.time_s, hit.point, hit.normal_speed());
+//!     println!("after {:.3} s: {:.2} units/s onto the wall at {:?}", hit.time_s, hit.normal_speed(), hit.point);
 //! }
-//! println!("the ball is at {}", engine.ball().position);
+//! println!("the ball is at {:?}", engine.ball().position);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -19,6 +19,16 @@ fn plane(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
     Plane { facing, offset, start, end }
 }
 
+/// A block from the origin to (1, 1).
+fn unit_block() -> [Plane; 4] {
+    [
+        plane(Facing::MinusX, 0.0, 0.0, 1.0),
+        plane(Facing::PlusX, 1.0, 0.0, 1.0),
+        plane(Facing::MinusY, 0.0, 0.0, 1.0),
+        plane(Facing::PlusY, 1.0, 0.0, 1.0),
+    ]
+}
+
 fn query(path: &Path, radius: f64, until_s: f64) -> SweepQuery {
     SweepQuery::new(*path, radius, until_s).unwrap()
 }
@@ -195,12 +205,7 @@ proptest! {
 
 #[test]
 fn faces_and_corners_of_a_scene_are_told_apart() {
-    let unit_block = [
-        plane(Facing::MinusX, 0.0, 0.0, 1.0),
-        plane(Facing::PlusX, 1.0, 0.0, 1.0),
-        plane(Facing::MinusY, 0.0, 0.0, 1.0),
-        plane(Facing::PlusY, 1.0, 0.0, 1.0),
-    ];
+    let unit_block = unit_block();
     let planes = SortedPlanes::new(unit_block).unwrap();
     let towards = |y: f64| Path {
         position: Vector2::new(-2.0, y),
@@ -242,12 +247,7 @@ fn a_ball_that_stands_on_a_corner_and_is_pressed_onto_it_does_not_sink_in() {
 
 #[test]
 fn a_sweep_tells_a_hit_an_overlap_and_a_free_path() {
-    let unit_block = [
-        plane(Facing::MinusX, 0.0, 0.0, 1.0),
-        plane(Facing::PlusX, 1.0, 0.0, 1.0),
-        plane(Facing::MinusY, 0.0, 0.0, 1.0),
-        plane(Facing::PlusY, 1.0, 0.0, 1.0),
-    ];
+    let unit_block = unit_block();
     let planes = SortedPlanes::new(unit_block).unwrap();
     let sweep = |from: [f64; 2], velocity: [f64; 2]| {
         let path = Path { position: from.into(), velocity: velocity.into(), acceleration: Vector2::zeros() };

@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// match maze.sweep(maze.start(), maze.goal(), maze.ball_radius.units())? {
 ///     Sweep::Free => println!("the goal is in sight"),
 ///     Sweep::Overlaps { wall, depth, .. } => println!("{depth} deep in {wall:?}"),
-///     Sweep::Hit { point, normal, .. } => println!("a wall is in the way at {point}, its normal {normal}"),
+///     Sweep::Hit { point, normal, .. } => println!("a wall is in the way at {point:?}, its normal {normal:?}"),
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

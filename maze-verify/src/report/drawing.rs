@@ -1,6 +1,5 @@
 //! A scene from above: its walls, and the paths of all engines over each other.
 
-use super::html::class_of;
 use super::plot::escaped;
 use crate::contender::Contender;
 use crate::results::SceneResult;
@@ -11,6 +10,11 @@ const AROUND: f64 = 0.8;
 
 /// Least side of what is shown (units).
 const LEAST_SIDE: f64 = 2.0;
+
+/// Style class of an engine.
+pub(super) fn class_of(engine: Contender) -> String {
+    format!("e-{}", engine.name())
+}
 
 /// Left, below, right, above of what is worth showing.
 ///

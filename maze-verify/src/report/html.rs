@@ -1,9 +1,10 @@
 //! report.html: one file that opens from disk, without scripts and without anything from elsewhere.
 
+use super::drawing::{self, class_of};
+use super::model_error;
 use super::number::{percent, plain, tick};
 use super::plot::{Line, Plot, Scale, escaped};
 use super::summary::{Finding, findings};
-use super::{drawing, model_error};
 use crate::contender::Contender;
 use crate::metrics::Metrics;
 use crate::results::{CaseResult, Results, SceneResult};
@@ -19,11 +20,6 @@ const N_OPEN_MAZES: usize = 2;
 
 /// Rows of the list of worst cases.
 const N_WORST: usize = 12;
-
-/// Style class of an engine.
-pub(super) fn class_of(engine: Contender) -> String {
-    format!("e-{}", engine.name())
-}
 
 /// The whole page.
 pub fn html(results: &Results) -> String {

@@ -1,6 +1,6 @@
 //! Named scenes of a ball that touches two features at once, or rolls over an edge.
 
-use super::catalogue::{R, ball, scene, spec, wall};
+use super::pieces::{R, ball, scene, spec, wall};
 use super::{Family, Gravity, Scene, Walls};
 use crate::engine::{Motion, Stretch};
 use maze_core::{BallSpec, Bounds};

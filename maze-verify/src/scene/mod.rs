@@ -5,10 +5,12 @@ mod contacts;
 mod file;
 mod gravity;
 mod levels;
+mod pieces;
 
-pub use catalogue::{TICKS_S, catalogue};
+pub use catalogue::catalogue;
 pub use file::{SceneFileError, read};
 pub use gravity::Gravity;
+pub use pieces::TICKS_S;
 
 use crate::board::Board;
 use crate::engine::Motion;
