@@ -105,7 +105,7 @@ pub(crate) struct App {
     kept_frames: Option<KeptFrames>,
     shows_frames: bool,
     slowness: Slowness,
-    /// The picture's quality is somebody's choice, and stays.
+    /// Whether the quality was chosen by the user, and stays.
     quality_is_chosen: bool,
     idle: Idle,
     /// Where it was last, if anywhere.
@@ -127,7 +127,7 @@ impl App {
     pub(crate) fn new(setup: Setup, options: Options, maze: Maze) -> Result<Self, Failure> {
         let game = Game::new(maze, setup.engine)?;
         let demo = options.demo.then(|| Demo::new(&game, setup.max_tilt_rad)).transpose()?;
-        // What ends by itself, or plays by itself, waits for nobody unless it is told to.
+        // What ends by itself, or plays by itself, does not wait for the player unless a flag asks for it.
         let waits = demo.is_none() && setup.exit_after.is_none();
         let usual = if waits { Unfocused::Pause } else { Unfocused::Run };
         let unfocused = setup.unfocused.unwrap_or(usual);
@@ -288,7 +288,7 @@ impl App {
         Ok(())
     }
 
-    /// The game has begun anew.
+    /// The game has restarted.
     fn keep_anew(&mut self) -> Result<(), Failure> {
         self.keeper.as_mut().map_or(Ok(()), |keeper| keeper.begin(&self.game, &self.source))
     }
@@ -302,7 +302,7 @@ impl App {
         self.idle.wake();
     }
 
-    /// Plays a file dropped on the window. One that is no maze is told, and the game goes on.
+    /// Plays a file dropped on the window. One that is no maze is reported, and the game continues.
     fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
         let source = self.source.of_file(path);
         let game = source.load().and_then(|maze| self.game.on(maze));

@@ -1,4 +1,4 @@
-//! Why a command did not do what it was asked: one line and an exit status.
+//! Why a command failed: one line and an exit status.
 
 use maze_core::printable;
 use std::fmt::{Display, Formatter};
@@ -40,13 +40,13 @@ impl Failure {
 impl Display for Failure {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> std::fmt::Result {
         let (Self::NotHeld(reason) | Self::BadInput(reason)) = self;
-        // One line that does no harm, whatever a library or a file said.
+        // One line without control characters, whatever a library or a file contains.
         formatter.write_str(&printable(reason))
     }
 }
 
 /// Prints a note that is no failure, on stderr.
 pub(crate) fn note(text: &str) {
-    // Where nobody reads it, nothing is lost.
+    // A closed stderr is no failure.
     let _ = writeln!(std::io::stderr(), "maze-app: {}", printable(text));
 }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Largest file that is read: an .obj of 1024 x 1024 cells has 300 MB.
 const MAX_BYTES: u64 = 1 << 29;
 
-/// How much longer than it says a file may be, that grows while it is read.
+/// How much longer than its metadata says a file may be, that grows while it is read.
 const MAX_GROWTH: u64 = 1 << 20;
 
 /// The whole file.
@@ -32,7 +32,7 @@ pub(crate) fn read_at_most(path: &Path, most: u64) -> Result<Vec<u8>, Failure> {
     if most < n_bytes {
         return Err(Failure::in_file(path, format!("{n_bytes} bytes, expected at most {most}")));
     }
-    // What a file says of its length is not what it gives: those of /proc say 0.
+    // The length in the metadata may be wrong: for files in /proc it is 0.
     let promised = n_bytes.saturating_add(MAX_GROWTH).min(most);
     let mut bytes = Vec::with_capacity(usize::try_from(n_bytes).unwrap_or(0));
     let file = fs::File::open(path).map_err(|error| Failure::in_file(path, plain(&error)))?;
@@ -70,7 +70,7 @@ pub(crate) fn write_all_whole(outputs: &[(&Path, &[u8])]) -> Result<(), Failure>
     Ok(())
 }
 
-/// Most files that [`write_numbered`] tells apart.
+/// Most files that [`write_numbered`] numbers.
 const MAX_NUMBER: u32 = 9999;
 
 /// A picture as the content of a .png file.
@@ -280,7 +280,7 @@ pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> 
     })
 }
 
-/// The system's words without its number.
+/// The system's message without its number.
 pub(crate) fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();
     match text.find(" (os error") {

@@ -9,7 +9,7 @@ use wgpu::{SubmissionIndex, TextureFormat, TextureView};
 pub(crate) struct FramePainter {
     pub(crate) renderer: Renderer,
     overlay: Overlay,
-    /// None where the adapter does not tell.
+    /// None where the adapter does not measure it.
     timer: Option<GpuTimer>,
 }
 

@@ -16,7 +16,7 @@ impl Stopwatch {
         Self(ThreadTime::try_now().ok())
     }
 
-    /// Milliseconds; 0 where the system does not tell.
+    /// Milliseconds; 0 where the system does not measure it.
     pub(crate) fn ms(&self) -> f64 {
         self.0.and_then(|time| time.try_elapsed().ok()).map_or(0.0, ms)
     }
@@ -146,7 +146,7 @@ impl FrameLog {
         spread(self.frames.iter().map(|frame| frame.process))
     }
 
-    /// `None` where the adapter does not tell.
+    /// `None` where the adapter does not measure it.
     pub(crate) fn gpu_ms(&self) -> Option<Spread> {
         spread(self.frames.iter().filter_map(|frame| frame.gpu))
     }

@@ -16,7 +16,7 @@ const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
 /// Fraction of its distance to the middle of the goal that the ball covers in a tick once it has got there.
 const SETTLE_FRACTION: f64 = 0.2;
 
-/// Owns what a run is made of; knows nothing of windows.
+/// Owns what a run is made of; does not depend on windows.
 pub(crate) struct Game {
     maze: Maze,
     kind: EngineKind,
@@ -114,7 +114,7 @@ impl Game {
         &self.maze
     }
 
-    /// What the engine said of the last tick.
+    /// What the engine reported about the last tick.
     pub(crate) fn last_tick(&self) -> &Tick {
         &self.last_tick
     }
@@ -156,7 +156,7 @@ impl Game {
         })
     }
 
-    /// Adds to a recording of this game what was played since; one of an earlier start begins anew.
+    /// Adds to a recording of this game what was played since; one of an earlier start is replaced.
     pub(crate) fn continue_recording(&self, recording: &mut Recording) {
         if self.tilts.len() < recording.tilts.len() {
             recording.tilts.clear();

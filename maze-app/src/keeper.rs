@@ -31,7 +31,7 @@ impl Keeper {
         game.continue_recording(&mut lock(&self.recording));
     }
 
-    /// The game has begun anew, perhaps in another maze.
+    /// The game has restarted, perhaps in another maze.
     pub(crate) fn begin(&mut self, game: &Game, source: &Source) -> Result<(), Failure> {
         *lock(&self.recording) = game.recording(source)?;
         Ok(())

@@ -96,19 +96,19 @@ fn main() -> ExitCode {
     finish(result)
 }
 
-/// The one place that says what went wrong.
+/// The one place that prints what went wrong.
 fn finish(result: Result<(), Failure>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            // Where nobody can read it, the exit status still tells.
+            // If stderr is closed, the exit status still reports it.
             let _ = writeln!(std::io::stderr(), "maze-app: {failure}");
             failure.exit_code()
         }
     }
 }
 
-/// What is wrong with a word that stands where none can: flags and a file without a subcommand take no other word.
+/// What is wrong with an unexpected argument: flags and a file without a subcommand take no other word.
 fn misplaced(word: &str) -> String {
     let cli = Cli::command();
     // Among the words before, one that follows a flag may be the flag's value: only a subcommand's name is certain.

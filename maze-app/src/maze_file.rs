@@ -59,7 +59,7 @@ impl Kind {
     }
 }
 
-/// What the user says about the content of a file, where it cannot be told.
+/// What the user states about the content of a file, where it is ambiguous.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Hints {
     /// What the signs of a text mean.
@@ -68,7 +68,7 @@ pub(crate) struct Hints {
     pub(crate) wall: Option<WallTone>,
 }
 
-/// Reads a maze file; the kind is told by its name's ending.
+/// Reads a maze file; the file extension gives the kind.
 pub(crate) fn load(path: &Path, options: &AssembleOptions, hints: &Hints) -> Result<Loaded, Failure> {
     let kind = Kind::of_name(path, &KINDS)?;
     let progress = Progress::of_file(path);
@@ -149,7 +149,7 @@ pub(crate) fn written_beside(path: &Path) -> Option<PathBuf> {
     is_obj.then(|| path.with_file_name(MATERIALS))
 }
 
-/// Writes a layout; the kind is told by the name's ending. An .obj gets its [`MATERIALS`] beside it.
+/// Writes a layout; the file extension gives the kind. An .obj gets its [`MATERIALS`] beside it.
 pub(crate) fn write(
     path: &Path,
     layout: &Layout,

@@ -4,7 +4,7 @@ use maze_core::Maze;
 use maze_core::layout::Metrics;
 use serde_json::{Value, json};
 
-/// Lines for a person; only what is known of this maze.
+/// Lines of text; only what is known of this maze.
 pub(crate) fn lines(maze: &Maze) -> Vec<String> {
     match (maze.path_length(), maze.metrics()) {
         (None, _) => Vec::new(),

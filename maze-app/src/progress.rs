@@ -1,4 +1,4 @@
-//! What a long load is at, on a terminal that somebody watches.
+//! The progress of a long load, on a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use maze_core::printable;
@@ -8,7 +8,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// Nobody needs to be told before.
+/// A shorter load shows no progress.
 const PATIENCE: Duration = Duration::from_millis(500);
 /// Time between two pictures of the spinner.
 const BEAT: Duration = Duration::from_millis(100);
@@ -42,7 +42,7 @@ impl Progress {
                 wait = BEAT;
             }
         };
-        // Where no thread can be made nobody is told; the work goes on.
+        // Where no thread can be made no progress is shown; the work continues.
         let thread = std::thread::Builder::new().name("progress".to_owned()).spawn(show);
         Self { bar, waiting: thread.ok().map(|thread| (done, thread)) }
     }

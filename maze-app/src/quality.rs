@@ -17,7 +17,7 @@ pub(crate) enum QualityChoice {
 }
 
 impl QualityChoice {
-    /// A tier that somebody asked for: it stays, however slow it is.
+    /// A tier that the user chose: it stays, however slow it is.
     pub(crate) fn is_chosen(self) -> bool {
         !matches!(self, Self::Auto)
     }

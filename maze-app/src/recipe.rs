@@ -1,4 +1,4 @@
-//! How a random maze is made, as said on the command line.
+//! How a random maze is made, as stated on the command line.
 
 use clap::Args;
 use maze_core::layout::{Algorithm, Recipe};
@@ -48,7 +48,7 @@ impl RecipeArguments {
     }
 }
 
-/// The words that give this recipe again on the command line.
+/// The arguments that give this recipe again on the command line.
 pub(crate) fn words(recipe: &Recipe) -> Vec<String> {
     let Recipe { width, height, algorithm, seed, braid, elitism, river } = *recipe;
     let mut words = vec![
@@ -62,7 +62,7 @@ pub(crate) fn words(recipe: &Recipe) -> Vec<String> {
     words
 }
 
-/// A seed nobody chose; short enough to read out.
+/// A random seed; short enough to read out.
 pub(crate) fn fresh_seed() -> u64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     (since.as_secs() ^ u64::from(since.subsec_nanos())) % 1_000_000

@@ -45,7 +45,7 @@ impl Drop for Kept {
     }
 }
 
-/// Makes a temporary file that is removed when the program is ended, and says what to call when it has its name or is gone.
+/// Makes a temporary file that is removed when the program is ended, and returns what to call when it has its name or is gone.
 pub(crate) fn temporary(
     make: impl FnOnce() -> std::io::Result<tempfile::NamedTempFile>,
 ) -> std::io::Result<tempfile::NamedTempFile> {
@@ -61,7 +61,7 @@ pub(crate) fn forget(path: &Path) {
     lock(&TEMPORARY).retain(|known| known != path);
 }
 
-/// Saves what there is and removes what is half-written; a failure is told. While the guard lives no other thread makes a
+/// Saves what there is and removes what is half-written; a failure is reported. While the guard lives no other thread makes a
 /// temporary file or notices that its own is gone.
 #[must_use = "the process ends while the guard lives"]
 fn save_all() -> MutexGuard<'static, Vec<PathBuf>> {
@@ -92,7 +92,7 @@ pub(crate) fn watch_signals() {
         let Ok(mut signals) = Signals::new(wanted) else { return };
         if let Some(signal) = signals.forever().next() {
             let _saved = save_all();
-            // As shells tell a process that a signal has ended.
+            // As shells report a process that a signal has ended.
             low_level::exit(128 + signal);
         }
     };
@@ -107,12 +107,12 @@ pub(crate) fn watch_signals() {}
 #[cfg(unix)]
 static CONTINUED: std::sync::LazyLock<Arc<AtomicBool>> = std::sync::LazyLock::new(|| {
     let continued = Arc::new(AtomicBool::new(false));
-    // Where it cannot be told, the time in between is forgotten but for a few ticks.
+    // Where it is not known, the time in between is dropped but for a few ticks.
     let _ = signal_hook::flag::register(signal_hook::consts::SIGCONT, Arc::clone(&continued));
     continued
 });
 
-/// Whether the program was stopped since this was asked last.
+/// Whether the program was stopped since the last call.
 #[cfg(unix)]
 pub(crate) fn was_stopped() -> bool {
     CONTINUED.swap(false, Ordering::SeqCst)

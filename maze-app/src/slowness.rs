@@ -7,7 +7,7 @@ use std::time::Duration;
 /// Frames of this time are looked at.
 const SPAN: Duration = Duration::from_secs(2);
 
-/// At least so many, or a single late one would tell.
+/// At least so many, or a single late one would decide.
 const MIN_FRAMES: usize = 6;
 
 /// A frame that takes longer is late: below 12 a second a ball cannot be steered.
@@ -44,7 +44,7 @@ impl Slowness {
         self.is_slow = if self.is_slow { FAST_FRACTION < late } else { SLOW_FRACTION <= late };
     }
 
-    /// After a pause, or a change of what a frame costs: what was says nothing about what comes.
+    /// After a pause, or a change of what a frame costs: what was measured before no longer counts.
     pub(crate) fn forget(&mut self) {
         *self = Self::default();
     }
@@ -61,7 +61,7 @@ impl Slowness {
         })
     }
 
-    /// The quality to draw with instead, when it is slow and nobody chose the quality. Only ever a cheaper one, so that it does
+    /// The quality to draw with instead, when it is slow and the user has not chosen the quality. Only ever a cheaper one, so that it does
     /// not go to and fro.
     pub(crate) fn remedy(&self, quality: Quality, is_chosen: bool) -> Option<Quality> {
         quality.cheaper().filter(|_| self.is_slow && !is_chosen)

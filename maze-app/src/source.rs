@@ -126,7 +126,7 @@ impl ReadArguments {
         }
     }
 
-    /// Reads a maze file and the sidecar beside it; the kind is told by its name's ending.
+    /// Reads a maze file and the sidecar beside it; the file extension gives the kind.
     pub(crate) fn load(&self, path: &Path) -> Result<Loaded, Failure> {
         let sidecar = Sidecar::beside(path)?;
         let hints =
@@ -192,7 +192,7 @@ impl Source {
         Self { read: read.clone(), kind: file.map_or(Kind::Random(recipe), Kind::File) }
     }
 
-    /// The words, one a line, that give this maze again on the command line.
+    /// The arguments, one a line, that give this maze again on the command line.
     pub(crate) fn words(&self) -> Result<String, Failure> {
         let mut words = self.read.words();
         match &self.kind {

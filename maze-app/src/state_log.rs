@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// What a line says.
+/// The content of a line.
 #[derive(Serialize)]
 pub(crate) struct State {
     /// Ticks since the program started.

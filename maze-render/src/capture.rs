@@ -88,7 +88,7 @@ pub fn capture_over(
     gpu.queue.submit([encoder.finish()]);
     let device_error = |e: &dyn std::fmt::Display| GpuError::Device(format!("reading the picture: {e}"));
     let (sender, receiver) = std::sync::mpsc::channel();
-    // The receiver outlives the callback; a failed send would only mean that nobody waits.
+    // The receiver outlives the callback; a failed send would only mean that the receiver is gone.
     buffer.map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| device_error(&e))?;
     if let Some(error) = gpu.take_error() {

@@ -1,4 +1,4 @@
-//! Adapter, device and window surface: what to ask for, what to say when there is none, and when they are lost.
+//! Adapter, device and window surface: what to request, what to report when there is none, and when they are lost.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -186,12 +186,12 @@ impl Gpu {
     /// True once the device is gone (driver reset, adapter unplugged): drop it and everything made with it, then
     /// make a new [`Gpu`]. Checks again at each call.
     pub fn is_lost(&self) -> bool {
-        // Polling is what runs the device-lost callback; its own failure says nothing more.
+        // Polling is what runs the device-lost callback; its own failure adds nothing.
         let _ = self.device.poll(wgpu::PollType::Poll);
         self.lost.load(Ordering::Relaxed)
     }
 
-    /// The first error the driver reported outside any call's result since the last time this was asked.
+    /// The first error the driver reported outside any call's result since the last call.
     pub fn take_error(&self) -> Option<GpuError> {
         let taken = self.error.lock().unwrap_or_else(PoisonError::into_inner).take();
         taken.map(GpuError::Device)

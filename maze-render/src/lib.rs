@@ -24,7 +24,7 @@
 //! # Ok(()) }
 //! ```
 //!
-//! The crate knows no window events, reads no files and no clock, and starts no thread, so that it also builds for
+//! The crate depends on no window events, reads no files and no clock, and starts no thread, so that it also builds for
 //! the browser.
 #![forbid(unsafe_code)]
 

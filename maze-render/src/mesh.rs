@@ -132,7 +132,7 @@ fn maze_buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> Result<
     });
     match buffer.get_mapped_range_mut(..) {
         Ok(mut mapped) => mapped.copy_from_slice(contents),
-        // What the device has to say tells more than that there is nothing to write to.
+        // The device's own error is more precise than that there is nothing to write to.
         Err(error) => {
             let unexplained = || GpuError::Device(format!("uploading the maze: {error}"));
             return Err(gpu.take_error().unwrap_or_else(unexplained));
@@ -146,7 +146,7 @@ fn maze_buffer(gpu: &Gpu, contents: &[u8], usage: wgpu::BufferUsages) -> Result<
 type Edge = [SurfaceVertex; 2];
 
 /// Every edge at floor height that no second triangle shares: around the board and around holes. It does not matter
-/// which surface brings them; one that is split differently on its two sides only grows a rim nobody sees, below the
+/// which surface brings them; one that is split differently on its two sides only grows a rim that is not visible, below the
 /// floor.
 fn floor_edges(mesh: &SurfaceMesh) -> Vec<Edge> {
     let is_at_floor = |v: &SurfaceVertex| v.position[2].abs() < FLOOR_TOLERANCE;

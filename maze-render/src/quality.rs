@@ -30,12 +30,12 @@ impl Quality {
     /// From the cheapest to the best.
     pub const ALL: [Self; 3] = [Self::Low, Self::Medium, Self::High];
 
-    /// What suits an adapter when nobody says otherwise.
+    /// What suits an adapter when the user has not chosen.
     pub fn for_adapter(adapter: &wgpu::AdapterInfo) -> Self {
         match adapter.device_type {
             wgpu::DeviceType::Cpu => Self::Low,
             wgpu::DeviceType::DiscreteGpu => Self::High,
-            // Built in, or a browser or a virtual machine that does not tell.
+            // Built in, or a browser or a virtual machine that does not report it.
             _ => Self::Medium,
         }
     }

@@ -24,7 +24,7 @@ pub struct Scene {
     /// How brightly the goal shines, from 0 (painted) to 1 (lit); pulse it to draw the eye.
     pub goal_glow: f32,
     /// Drawn over everything, in this order, above the patches: also over walls between them and the eye, since a plane, a
-    /// contact or the ball's pull is to be seen where it is, whatever the tilt.
+    /// contact or the ball's acceleration is visible where it is, whatever the tilt.
     pub lines: Vec<Line>,
     /// Drawn over everything but the lines, in this order.
     pub patches: Vec<Patch>,

@@ -77,7 +77,7 @@ pub enum TextureError {
         name: String,
         /// What would be taken.
         kind: &'static str,
-        /// The decoder's words.
+        /// The decoder's message.
         reason: String,
     },
 }
@@ -189,7 +189,7 @@ pub(crate) struct Mipmapped {
     pub(crate) view: wgpu::TextureView,
     /// Mean colour, linear.
     pub(crate) mean: [f32; 3],
-    /// What to tell when the picture was made smaller.
+    /// A note when the picture was made smaller.
     pub(crate) note: Option<String>,
 }
 
@@ -251,7 +251,7 @@ pub(crate) fn normal_map(image: &RgbImage) -> RgbImage {
     })
 }
 
-/// Leaves out the levels that are wider than `max_side`, and says so.
+/// Leaves out the levels that are wider than `max_side`, and notes it.
 fn shrink(levels: &mut Vec<Level>, name: &str, max_side: u32) -> Option<String> {
     let n_too_big = levels.iter().take_while(|l| max_side < l.width.max(l.height)).count();
     let left_out = levels.drain(..n_too_big.min(levels.len() - 1)).next();

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use crate::Gpu;
 
-/// What an adapter needs to tell; browsers do not offer it.
+/// What an adapter needs to measure it; browsers do not offer it.
 pub(crate) const FEATURES: wgpu::Features =
     wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
@@ -33,7 +33,7 @@ struct Slot {
 }
 
 impl GpuTimer {
-    /// `None` where the adapter does not tell.
+    /// `None` where the adapter does not measure it.
     pub fn new(gpu: &Gpu) -> Option<Self> {
         if !gpu.device.features().contains(FEATURES) {
             return None;

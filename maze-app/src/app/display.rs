@@ -1,7 +1,7 @@
-//! The way to the window system, or one line that says why there is none.
+//! Connects to the window system, or fails with one line that says why.
 //!
 //! winit decides by the environment alone, tries one system once, waits without end for one that does not answer, and
-//! panics on settings that it cannot use. So each system is asked for a sign of life first, within a time.
+//! panics on settings that it cannot use. So each system is probed first, with a timeout.
 
 use crate::failure::Failure;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -10,7 +10,7 @@ use winit::dpi::{LogicalSize, PhysicalSize, Size};
 use winit::event::InnerSizeWriter;
 use winit::event_loop::{ActiveEventLoop, EventLoop};
 
-/// Scale factors that a screen may have. Window systems hand on what a user or a broken screen tells them, 0 and 10
+/// Scale factors that a screen may have. Window systems pass on what a user or a broken screen reports, 0 and 10
 /// million too.
 const SCALES: std::ops::RangeInclusive<f64> = 0.25..=8.0;
 
@@ -19,7 +19,7 @@ pub(super) fn is_scale(scale: f64) -> bool {
     SCALES.contains(&scale)
 }
 
-/// The size of a new window in pixels, if it is said, else in the units of the screen's scale.
+/// The size of a new window in pixels, if it is given, else in the units of the screen's scale.
 pub(super) fn window_size(event_loop: &ActiveEventLoop, pixels: Option<[u32; 2]>, units: [u32; 2]) -> Size {
     // The library multiplies by the scale, and panics when it cannot.
     let is_scaled = event_loop.available_monitors().all(|monitor| is_scale(monitor.scale_factor()));
@@ -38,14 +38,14 @@ pub(super) fn rescale(scale: f64, mut writer: InnerSizeWriter, pixels: [u32; 2])
     }
 }
 
-/// The way to a window system that answers: Wayland, else X11.
+/// A window system that answers: Wayland, else X11.
 pub(crate) fn event_loop() -> Result<EventLoop<()>, Failure> {
     let mut builder = EventLoop::builder();
     #[cfg(all(unix, not(target_os = "macos")))]
     let named = unix::choose(&mut builder)?;
     #[cfg(not(all(unix, not(target_os = "macos"))))]
     let named = "this system's".to_owned();
-    // The error itself names a line of the library's source, and says no more than this.
+    // The error itself only adds a line of the library's source.
     guarded(|| builder.build())?.map_err(|_| no_display(&format!("{named}: refused")))
 }
 
@@ -137,7 +137,7 @@ mod unix {
     pub(super) fn choose(builder: &mut EventLoopBuilder<()>) -> Result<String, Failure> {
         let mut refused = Vec::new();
         if let Some(value) = set("WAYLAND_SOCKET") {
-            // A connection that was handed over can be used once only, so it cannot be asked. Where there is none, the library
+            // An inherited connection can be used once only, so it cannot be probed. Where there is none, the library
             // aborts.
             if is_open(&value) {
                 builder.with_wayland();
@@ -203,7 +203,7 @@ mod unix {
         }
     }
 
-    /// The same program with the same words in the same process, and without these variables: the environment of a program
+    /// The same program with the same arguments in the same process, and without these variables: the environment of a program
     /// that runs cannot be changed safely. Comes back only if that cannot be done.
     fn start_again_without(variables: &[&str]) {
         let Ok(program) = std::env::current_exe() else { return };
@@ -227,7 +227,7 @@ mod unix {
         Err(Failure::bad_input(format!("{SCALE_VARIABLE} is '{text}': expected {least} to {most}, or randr")))
     }
 
-    /// The answer; `None` when it does not come in time. Whoever still waits for it then is left behind.
+    /// The answer; `None` when it does not come in time. A thread that still waits for it is abandoned.
     pub(super) fn within<T: Send + 'static>(
         time: Duration,
         ask: impl FnOnce() -> Result<T, String> + Send + 'static,
@@ -258,7 +258,7 @@ mod unix {
         Ok(())
     }
 
-    /// Asks a Wayland server for its globals, in the protocol's own words: all numbers have 32 bits in the machine's
+    /// Asks a Wayland server for its globals, in the wire protocol: all numbers have 32 bits in the machine's
     /// order, a message is the object, its size in the upper half of the next number and what is asked in the lower, and
     /// the arguments. See "Wire Format" in the Wayland book.
     pub(super) fn wayland_answers(name: &OsStr) -> Result<(), String> {

@@ -78,7 +78,7 @@ impl Graphics {
 
     /// Until the adapter has drawn all that it was given.
     pub(super) fn wait(&self) {
-        // A device that is lost instead says so at the next frame.
+        // A device that is lost instead is reported at the next frame.
         let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
@@ -101,7 +101,7 @@ impl Graphics {
         self.window.set_fullscreen((!is_on).then_some(Fullscreen::Borderless(None)));
     }
 
-    /// The scene and what is said of the method, without the rest of the HUD.
+    /// The scene and the method's notes, without the rest of the HUD.
     pub(super) fn screenshot(&mut self, scene: &Scene, notes: &Notes) -> Result<RgbaImage, Failure> {
         let (size, scale) = (self.target.size(), self.scale());
         ui::picture(&self.gpu, &mut self.painter.renderer, size, scale, scene, notes)

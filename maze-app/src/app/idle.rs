@@ -7,7 +7,7 @@ use maze_core::Phase;
 use maze_render::Scene;
 use std::time::{Duration, Instant};
 
-/// After the last change frames go on this long: a panel whose words have become shorter is narrower a frame later.
+/// After the last change frames go on this long: a panel whose text has become shorter is narrower a frame later.
 const SETTLE: Duration = Duration::from_millis(100);
 
 /// Frames of a still picture come this far apart, for a window that has come out from under another.

@@ -1,4 +1,4 @@
-//! Keys and mouse: what they ask for is handed to the tilt, or done.
+//! Keys and mouse: each input becomes a tilt or an action.
 
 use super::{App, layout};
 use crate::failure::Failure;

@@ -1,4 +1,4 @@
-//! Asks the X server what is printed on the keys; winit tells it with a key's press only, and Wayland tells nobody else.
+//! Asks the X server what is printed on the keys; winit reports it with a key press only, and Wayland reports it to the focused window only.
 
 use crate::input::Layout;
 

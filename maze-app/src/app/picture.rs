@@ -65,7 +65,7 @@ impl App {
         Ok(())
     }
 
-    /// What is said while the game does not run at its usual speed.
+    /// The text shown while the game does not run at its usual speed.
     pub(super) fn pace(&self) -> Option<String> {
         if self.presence.waits() {
             return Some("paused: click here to go on".to_owned());

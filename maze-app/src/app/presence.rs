@@ -1,16 +1,16 @@
-//! Whether the player is there: the game's time stands while nobody can see it, and while another window has the keyboard.
+//! Whether the player is there: the game's time stands while it is not visible, and while another window has the keyboard.
 
 use super::watch::Watch;
 use crate::setup::Unfocused;
 
-/// What the window system has said of the window.
+/// What the window system has reported about the window.
 #[derive(Default)]
 pub(super) struct Presence {
     unfocused: Unfocused,
     is_occluded: bool,
     /// None before it had the keyboard for the first time: without a window manager it never gets it, and plays.
     has_keyboard: Option<bool>,
-    /// Where events do not tell all.
+    /// Where events do not report everything.
     watch: Option<Watch>,
 }
 

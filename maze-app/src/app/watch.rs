@@ -1,4 +1,4 @@
-//! Asks the X server whether the window is in view. winit tells of a window that others cover, but not of one that the
+//! Asks the X server whether the window is in view. winit reports a window that others cover, but not of one that the
 //! window manager has taken off the screen: minimised, or on another workspace.
 
 use std::sync::Arc;
@@ -16,7 +16,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// `None` where the window system is another one, which tells by itself, or cannot be asked.
+    /// `None` where the window system is another one, which reports it in events, or cannot be queried.
     pub(super) fn new(window: &Window) -> Option<Self> {
         let id = x11_id(window)?;
         let is_hidden = Arc::new(AtomicBool::new(false));
@@ -85,7 +85,7 @@ mod x11 {
         }
 
         /// `None` when there is no such window any more. Window managers differ in what they do to a window on another
-        /// workspace: most take it or its frame off the screen, compositing ones may only say where it is.
+        /// workspace: most take it or its frame off the screen, compositing ones may only report where it is.
         pub(super) fn is_hidden(&self) -> Option<bool> {
             let attributes = self.connection.get_window_attributes(self.window).ok()?.reply().ok()?;
             if attributes.map_state != MapState::VIEWABLE {

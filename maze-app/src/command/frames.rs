@@ -34,7 +34,7 @@ const GRID_SIZE: [usize; 2] = [14, 9];
 /// Longest side of a picture that every adapter can draw (pixels).
 const EVERY_ADAPTER: u32 = 2048;
 
-/// Frames handed over and not yet drawn, offscreen: as many as a window's driver lets a game be ahead.
+/// Frames submitted and not yet drawn, offscreen: as many as a window's driver lets a game be ahead.
 const N_FRAMES_AHEAD: usize = 2;
 
 #[derive(Args)]
@@ -169,7 +169,7 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
     };
     let event_loop = app::event_loop()?;
     if arguments.size.iter().any(|side| EVERY_ADAPTER < *side) {
-        // A window of a size that nobody can draw need not be opened.
+        // A window of a size that no adapter can draw is not opened.
         expect_size(arguments.size, &Gpu::offscreen().map_err(Failure::bad_input)?)?;
     }
     let options =

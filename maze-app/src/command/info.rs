@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     planes: Option<Facing>,
 }
 
-/// Most openings that are told one by one in text: a maze has two or a few more.
+/// Most openings that are listed one by one in text: a maze has two or a few more.
 const MOST_OPENINGS: usize = 12;
 
 fn parse_facing(text: &str) -> Result<Facing, String> {

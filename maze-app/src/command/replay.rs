@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
 /// Longest recording: four bytes a tick, and a head.
 const MAX_BYTES: u64 = 4 * MAX_TICKS as u64 + (1 << 16);
 
-/// A recording's source is the words that `play` takes.
+/// A recording's source is arguments that `play` takes.
 #[derive(Parser)]
 #[command(no_binary_name = true)]
 struct SourceWords {

@@ -1,6 +1,6 @@
 //! One table: what each key does. The list of keys on screen is made from it too.
 //!
-//! A press is looked up once, so no key can do two things, whatever the layout. Keys that print something are told by
+//! A press is looked up once, so no key can do two things, whatever the layout. Keys that print something are identified by
 //! their place on the keyboard, all others by their name:
 //!
 //! - letters, digits and marks by place ([`Key::Place`]): R is the fourth key of the upper letter row, whether it prints
@@ -67,7 +67,7 @@ pub(crate) enum Control {
     Act(Action),
 }
 
-/// How a key is told from others.
+/// How a key is identified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Key {
     /// One that prints something, by its place.

@@ -65,7 +65,7 @@ impl Keyboard {
         self.modifiers = modifiers;
     }
 
-    /// Takes note of a stroke, and says what is to be done about it.
+    /// Registers a stroke, and returns its effect.
     pub(crate) fn stroke(&mut self, stroke: &Stroke) -> Option<Effect> {
         let was = self.held.iter().position(|(place, _)| *place == stroke.place);
         if !stroke.is_pressed {
@@ -90,7 +90,7 @@ impl Keyboard {
         }
     }
 
-    /// Shortcuts of the desktop and the window system are none of ours. Shift is needed to print some of the marks that
+    /// Shortcuts of the desktop and the window system are not handled. Shift is needed to print some of the marks that
     /// are shown for actions.
     fn allows(&self, control: Control) -> bool {
         match control {
@@ -119,7 +119,7 @@ impl Keyboard {
         }
     }
 
-    /// Whether a key printed what no known layout explains, since this was asked last: then the window system may know more.
+    /// Whether a key printed what no known layout explains, since the last call: then the window system may know more.
     pub(crate) fn take_unknown(&mut self) -> bool {
         std::mem::take(&mut self.is_unknown)
     }
@@ -133,7 +133,7 @@ impl Keyboard {
         }
     }
 
-    /// The letter of a control's first key that is told by its place.
+    /// The letter of a control's first key that is identified by its place.
     pub(crate) fn letter_of(&self, control: Control) -> String {
         let place = bindings::keys_of(control).iter().find_map(|key| match key {
             bindings::Key::Place(place) => Some(*place),

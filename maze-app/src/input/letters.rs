@@ -1,4 +1,4 @@
-//! What is printed on the keys of the player's keyboard, as far as the window system tells it.
+//! What is printed on the keys of the player's keyboard, as far as the window system reports it.
 
 use super::bindings;
 use winit::keyboard::KeyCode;
@@ -22,7 +22,7 @@ impl Letters {
         *self = Self { layouts, ..Self::default() };
     }
 
-    /// A key was pressed and prints a letter. False when this is news that no known layout explains.
+    /// A key was pressed and prints a letter. False when no known layout explains it.
     pub(super) fn see(&mut self, place: KeyCode, letter: &str) -> bool {
         if us_letter(place).is_none() || letter.trim().is_empty() {
             return true;
@@ -52,7 +52,7 @@ impl Letters {
             return letter.to_owned();
         }
         let us = us_letter(place).unwrap_or("?");
-        // A letter that is somewhere else on this keyboard, as far as anybody knows, would mislead.
+        // A letter that is somewhere else on this keyboard, as far as is known, would mislead.
         let is_letter = |name: &str| name.chars().all(|letter| letter.is_ascii_alphabetic());
         let differs = |us: &str, letter: &str| is_letter(us) && us != letter;
         let mut seen = self.seen.iter();
@@ -112,7 +112,7 @@ mod tests {
         assert_eq!([KeyCode::KeyN, KeyCode::KeyT].map(|place| letters.name(place)), ["Т", "Е"]);
         assert!(letters.see(KeyCode::KeyT, "T"));
         assert_eq!(letters.name(KeyCode::KeyR), "R");
-        // Another layout than those that were told of.
+        // Another layout than those that were reported.
         assert!(!letters.see(KeyCode::KeyT, "ק"));
         assert_eq!(letters.name(KeyCode::KeyT), "ק");
     }
@@ -121,7 +121,7 @@ mod tests {
     fn i3_no_letter_is_shown_for_two_keys_when_the_layout_is_seen_key_by_key() {
         let mut letters = Letters::default();
         assert_eq!(letters.name(KeyCode::KeyT), "T");
-        // Dvorak: R prints p, and P something that nobody has seen yet.
+        // Dvorak: R prints p, and P something that is not known yet.
         assert!(!letters.see(KeyCode::KeyR, "P"));
         assert_eq!([KeyCode::KeyR, KeyCode::KeyP].map(|place| letters.name(place)), ["P", "US P"]);
         // German has other marks and the same letters.

@@ -36,7 +36,7 @@ impl Direction {
     }
 }
 
-/// Half-angle tangents (towards +x, towards +y) that are asked for; what is given stays under the limit.
+/// Half-angle tangents (towards +x, towards +y) that are requested; the result stays under the limit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TiltControl {
     asked: Vector2<f64>,
@@ -249,7 +249,7 @@ mod tests {
             }
         }
 
-        /// A drag that closes on itself undoes itself, as long as it stays below what may be asked for.
+        /// A drag that closes on itself undoes itself, as long as it stays below the largest request.
         #[test]
         fn i4_a_closed_drag_undoes_itself(points in prop::collection::vec([0.0..180.0, 0.0..180.0], 1..20)) {
             let mut control = TiltControl::new(LIMIT_RAD);

@@ -134,7 +134,7 @@ pub(crate) struct Notes {
     pub(crate) tags: Vec<Tag>,
 }
 
-/// Adds the layers' lines and patches to a scene of the game, `size` pixels large, and says what is to be written.
+/// Adds the layers' lines and patches to a scene of the game, `size` pixels large, and returns the text to write.
 pub(crate) fn add(layers: Layers, game: &Game, scene: &mut Scene, size: [u32; 2]) -> Notes {
     if layers == Layers::default() {
         return Notes::default();
@@ -288,7 +288,7 @@ impl<'a> Drawing<'a> {
         let Ok(query) = SweepQuery::new(path, self.radius, tick_s) else { return };
         let trace = trace::search(planes, &query);
         self.search_in_maze(&trace, &path);
-        // What there is to see: a plane that was handed over, a row in reach, or else the first group.
+        // What there is to see: a plane that was tested, a row in reach, or else the first group.
         let groups = &trace.groups;
         let finds = |group: &&GroupVisit| group.rows.iter().any(|row| !row.planes.is_empty());
         let group = groups.iter().find(finds);

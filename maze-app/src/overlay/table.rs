@@ -24,7 +24,7 @@ pub(super) fn lines(planes: &SortedPlanes, group: &GroupVisit, colour: Colour) -
         vec![vec![span(colour, heading)], vec![span(QUIET, format!("sought: offset {low:.2} to {high:.2}"))]];
     let offset = |index: usize| format!("{:>8.2}", offsets[index]);
     lines.extend(probe_lines(offsets.len(), &group.probes, &visited, "  offset", offset));
-    // The row in which planes were handed over, or else the first.
+    // The row in which planes were tested, or else the first.
     let row = group.rows.iter().find(|row| !row.planes.is_empty()).or(group.rows.first());
     let Some(row) = row else {
         lines.push(vec![span(QUIET, "no row within reach")]);

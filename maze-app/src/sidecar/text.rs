@@ -1,4 +1,4 @@
-//! What a sidecar's text says. By itself, so that a fuzz target can include it.
+//! The reader of a sidecar's text, in a file of its own so that a fuzz target can include it.
 
 use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
@@ -88,7 +88,7 @@ fn scale<'de, D: Deserializer<'de>>(value: D) -> Result<Option<f64>, D::Error> {
 }
 
 fn point<'de, D: Deserializer<'de>>(value: D) -> Result<Option<Vector2<f64>>, D::Error> {
-    // Not an array of two: of a longer one the end would be cut off without a word.
+    // Not an array of two: of a longer one the end would be cut off silently.
     let values = Vec::<f64>::deserialize(value)?;
     let [x, y] = values[..] else {
         return Err(Error::custom(format!("expected two numbers, found {}", values.len())));
@@ -187,7 +187,7 @@ mod tests {
         vec(piece, 0..30).prop_map(|pieces| pieces.concat())
     }
 
-    /// Nothing panics, what is read is in range, and what is not is told in a line, with a line that is there.
+    /// Nothing panics, what is read is in range, and what is not is reported in a line, with a line that is there.
     fn is_read_or_told(text: &str) {
         match Sidecar::parse(text) {
             Ok(sidecar) => {

@@ -87,7 +87,7 @@ fn numbered(text: &str, mut has_shape: impl FnMut(char) -> bool) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut missing: Vec<char> = Vec::new();
     for letter in text.chars() {
-        // Between other letters these only say how to join them.
+        // Between other letters these only control how they join.
         let joins = matches!(letter, '\u{200c}' | '\u{200d}' | '\u{fe00}'..='\u{fe0f}');
         if letter == ' ' || joins || !has_no_shape(letter) && has_shape(letter) {
             write_numbers(&mut shown, &mut missing);

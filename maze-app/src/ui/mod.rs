@@ -69,7 +69,7 @@ impl Overlay {
     }
 }
 
-/// A scene as a picture, and over it what is said of the method.
+/// A scene as a picture, and over it the method's notes.
 pub(crate) fn picture(
     gpu: &Gpu,
     renderer: &mut Renderer,

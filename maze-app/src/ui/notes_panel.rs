@@ -1,4 +1,4 @@
-//! What the method's overlays have to say: panels on the left, and words at places in the maze.
+//! The text of the method's overlays: panels on the left, and tags at places in the maze.
 
 use super::hud::{DENSE_GLASS, GOLD, MARGIN, is_small, panel};
 use crate::overlay::{Layers, Notes, Span};

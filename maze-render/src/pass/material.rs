@@ -38,7 +38,7 @@ pub(crate) struct Materials {
     pub(crate) groups: [wgpu::BindGroup; 4],
     /// The floor's mean colour, linear.
     pub(crate) floor_mean: [f32; 3],
-    /// What to tell of pictures that were made smaller.
+    /// Notes about pictures that were made smaller.
     pub(crate) notes: Vec<String>,
 }
 

@@ -6,7 +6,7 @@
 @group(1) @binding(3) var occlusion_sampler: sampler;
 @group(1) @binding(4) var floor_light: texture_2d<f32>;
 
-// PCF taps of the shadow map along each side of a soft edge; with none, the map of the floor's light is asked instead.
+// PCF taps of the shadow map along each side of a soft edge; with none, the map of the floor's light is sampled instead.
 override pcf_taps: i32 = 3;
 
 const PI = 3.14159265;

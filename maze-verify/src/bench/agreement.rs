@@ -11,14 +11,14 @@ pub const APART: f64 = 1.0e-3;
 pub enum Agreement {
     /// The same times to the bit.
     Exact,
-    /// At most this part of the answers is more than [`APART`] off or missed; the reason why not all are the same.
+    /// At most this fraction of the answers is more than [`APART`] off or missed; the reason why not all are the same.
     Mostly {
         /// 0 to 1.
         part: f64,
         /// Why they differ.
         reason: &'static str,
     },
-    /// It answers another question, which this says: its time is told, its answers are not compared.
+    /// It answers another question, which this says: its time is printed, its answers are not compared.
     OtherQuestion(&'static str),
 }
 
@@ -52,7 +52,7 @@ pub struct Comparison {
 /// Contenders and what they have built.
 pub type Built<'a> = (&'a Contender, Box<dyn Search>);
 
-/// All answer the first `n` queries: how the others' answers compare with the first one's, and which part of those are touches.
+/// All answer the first `n` queries: how the others' answers compare with the first one's, and which fraction of those are touches.
 pub fn check(built: &mut [Built], n_planes: usize, set: &QuerySet, n: usize) -> (Vec<Comparison>, f64) {
     let Some(((_, reference), others)) = built.split_first_mut() else { return (Vec::new(), 0.0) };
     let answers = |search: &mut dyn Search| -> Vec<Option<f64>> {
@@ -140,7 +140,7 @@ impl Comparison {
         Self { holds, ..self }
     }
 
-    /// Part of the answers that are off by more than the limit or missed.
+    /// Fraction of the answers that are off by more than the limit or missed.
     #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
     pub fn part_off(&self) -> f64 {
         (self.n_apart + self.n_missed) as f64 / self.n_asked.max(1) as f64

@@ -1,4 +1,4 @@
-//! What was measured, and how it is told.
+//! What was measured, and how it is printed.
 
 use super::agreement::Comparison;
 use super::machine::Machine;
@@ -17,7 +17,7 @@ pub struct Group {
     pub n_planes: usize,
     /// Touches in answer to a query or within a tick, on average.
     pub touches: Option<f64>,
-    /// One a contender; the others' times are told as multiples of the first's.
+    /// One a contender; the others' times are printed as multiples of the first's.
     pub series: Vec<Series>,
 }
 

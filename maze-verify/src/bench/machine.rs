@@ -49,7 +49,7 @@ fn unknown() -> String {
     "unknown".to_owned()
 }
 
-/// Linux tells; elsewhere the model stays unknown.
+/// Read on Linux; elsewhere the model stays unknown.
 fn cpu() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let model = text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'))?;

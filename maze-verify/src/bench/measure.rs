@@ -101,14 +101,14 @@ impl BenchError {
     }
 }
 
-/// How often [`measure`] tells what comes next.
+/// How often [`measure`] reports what comes next.
 pub fn n_steps(plan: &Plan) -> usize {
     plan.sizes.len() * (1 + RANDOM.len() + 1)
 }
 
 /// Measures all searches; `on_step` hears what comes next.
 ///
-/// Contenders whose answers are wrong are timed all the same; [`Figures::held`] tells, and the table names them.
+/// Contenders whose answers are wrong are timed all the same; [`Figures::held`] is false, and the table names them.
 ///
 /// # Errors
 /// A maze, a structure or an engine that cannot be made.

@@ -46,7 +46,7 @@ fn batch_size(runner: &mut Runner, batch: Duration) -> usize {
         if batch_ns <= took_ns {
             return size;
         }
-        // Towards the goal, but never far past it on the word of a short measurement.
+        // Towards the goal, but never far past it on the basis of a short measurement.
         let factor = (1.2 * batch_ns / took_ns.max(1.0)).clamp(1.1, 8.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive count")]
         let larger = (to_f64(size) * factor).ceil() as usize;

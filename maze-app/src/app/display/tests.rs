@@ -33,7 +33,7 @@ fn i6_a_window_system_that_never_answers_is_left_behind() {
     assert_eq!(within(Duration::from_secs(600), || Ok(7)), Some(Ok(7)));
 }
 
-/// What the probe says to a server that answers with `reply`.
+/// The probe's verdict on a server that answers with `reply`.
 fn answer_to(reply: &'static [u8]) -> Result<(), String> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("wayland-7");

@@ -1,6 +1,6 @@
 //! The practical limit for grid mazes: four bits a cell, and a walk through the cells that the circle passes.
 //!
-//! It works for no other maze: every coordinate follows from a cell's number, so that one word of memory tells the walls of
+//! It works for no other maze: every coordinate follows from a cell's number, so that one word of memory holds the walls of
 //! sixteen cells. Faces and corners that the bits and the boxes around the motion leave go through maze-core's own
 //! [`time_of_impact::face`] and [`time_of_impact::corner`], so that the answers are the same to the bit.
 

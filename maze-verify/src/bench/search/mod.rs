@@ -65,7 +65,7 @@ const CASTS: Agreement = Agreement::Mostly {
     reason: "computed in f32, by iteration to a tolerance; along the chord of a parabola",
 };
 
-/// What is told of one contender after the other.
+/// What is printed of one contender after the other.
 const fn contender(name: &'static str, about: &'static str, agreement: Agreement, build: Build) -> Contender {
     Contender { name, about, agreement, max_planes: usize::MAX, build }
 }

@@ -1,4 +1,4 @@
-//! Trees of boxes: rstar and bvh find what is near, maze-core's functions tell when it is touched.
+//! Trees of boxes: rstar and bvh find what is near, maze-core's functions compute when it is touched.
 //!
 //! A long path is asked for piece by piece, so that what lies behind the first touch is not asked for.
 
@@ -59,7 +59,7 @@ fn touch(query: &Query, face: &WallFace) -> f64 {
     best
 }
 
-/// Whether a point lies as near to the chord as the path and the circle can come: tells most of those apart that are passed.
+/// Whether a point lies as near to the chord as the path and the circle can come: culls most of those that are passed.
 fn can_touch(query: &Query, point: Vector2<f64>) -> bool {
     let chord = query.mean_velocity() * query.until_s;
     let sag = query.path.acceleration.norm() * (query.until_s * query.until_s / 8.0);

@@ -1,4 +1,4 @@
-//! Whether the balls of all contenders follow the same path, for as long as that can be said.
+//! Whether the balls of all contenders follow the same path, for as long as it can be compared.
 
 use super::super::agreement::{Agreement, Comparison};
 use super::super::case::turning_accelerations;
@@ -18,7 +18,7 @@ const N_TICKS_EXACT: usize = 10_000;
 
 /// Positions farther apart than this (units) count as different: a fifth of the ball's radius.
 ///
-/// Both move in steps of first order, which is v dt / 2 = 0.02 off at 1 unit/s; a bounce is told up to a tick late, which is
+/// Both move in steps of first order, which is v dt / 2 = 0.02 off at 1 unit/s; a bounce is seen up to a tick late, which is
 /// (1 + e) v dt = 0.05; rapier's contacts begin 0.02 early.
 pub const APART: f64 = 0.05;
 
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
     use crate::bench::case::Case;
 
-    /// The exact engine, whose ball is said to be somewhere else.
+    /// The exact engine, whose ball is reported somewhere else.
     struct Shifted(Box<dyn Mover>, f64);
 
     impl Mover for Shifted {

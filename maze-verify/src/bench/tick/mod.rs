@@ -366,7 +366,7 @@ pub const FAST_SIZE: [usize; 2] = [27, 3];
 /// And of the maze of the many balls: about 10⁵ planes.
 pub const MANY_SIZE: [usize; 2] = [27, 10];
 
-/// How often [`measure`] tells what comes next.
+/// How often [`measure`] reports what comes next.
 pub fn n_steps(plan: &Plan) -> usize {
     let has = |size| usize::from(plan.tick_sizes.contains(&size));
     2 * plan.tick_sizes.len() + 1 + SPEEDS.len() * has(FAST_SIZE) + has(MANY_SIZE)
