@@ -143,42 +143,14 @@ impl Maze {
         given: &Given,
         tell: &mut dyn FnMut(Stage),
     ) -> Result<Self, AssembleError> {
-        tell(Stage::Faces);
-        let mut survey = Survey::new(mesh, up_axis, false)?;
-        let cut = survey.cut_walls()?;
-        tell(Stage::Plan);
-        let mut raw_plan = Occupancy::new(&cut)?;
-        drop(cut);
-        let mut covers = board::Covers::new(&survey, &raw_plan);
-        let is_turned_over = covers.is_turned_over();
-        if is_turned_over {
-            let size = extent(mesh.positions()).amax();
-            raw_plan = raw_plan.turned_over(RING_FRACTION * size);
-            covers = board::Covers::new(&survey, &raw_plan);
-        } else if raw_plan.inverted {
-            // The walls face inwards, and so does all the rest: floors face down.
-            survey = Survey::new(mesh, up_axis, true)?;
-            raw_plan = Occupancy::new(&survey.cut_walls()?)?;
-            covers = board::Covers::new(&survey, &raw_plan);
-        }
-        covers.note_roof(&mut survey);
-        let corridor_of = |plan: &Occupancy| plan.corridor().map(|found| given.corridor.unwrap_or(found));
-        let mut corridor = corridor_of(&raw_plan).ok_or(AssembleError::NoCorridor)?;
-        if !is_turned_over {
-            let radius = options.ball_radius.unwrap_or(BallSpec::RADIUS).units() * corridor;
-            if let Some(plan) = with_low_walls(&mut survey, &raw_plan, radius)? {
-                raw_plan = plan;
-                corridor = corridor_of(&raw_plan).ok_or(AssembleError::NoCorridor)?;
-                covers = board::Covers::new(&survey, &raw_plan);
-            }
-        }
+        let Ground { survey, plan: raw_plan, covers, corridor } =
+            Ground::of(mesh, up_axis, options, given, tell)?;
         let frame = Frame::new(&raw_plan, [survey.floor_z, survey.top_z], corridor, options.scale);
         if let Some(scale) = options.scale.filter(|scale| !CORRIDORS.contains(&(scale * corridor))) {
             return Err(AssembleError::Scale { scale, corridor: scale * corridor });
         }
         let plan = raw_plan.map(|x| frame.x(x), |y| frame.y(y));
         let [low, high] = plan.corners().map(|[x, y]| Vector2::new(x, y));
-        let bounds = Bounds { low, high };
         tell(Stage::Path);
         let requested = Requested {
             exact: [options.start, options.goal],
@@ -204,28 +176,16 @@ impl Maze {
         let (space, ends) = found.map_err(|error| AssembleError::of_route(error, asked))?;
         // A notch in the outer wall that the ball does not fit into is no opening either.
         openings.retain(|opening| ends::door(&space, opening, in_corridors * width).is_some());
-        let wall_height = frame.z(survey.top_z);
         tell(Stage::Surface);
         Ok(Self {
             planes: Arc::new(SortedPlanes::new(plan.faces())?),
             surface: board::surface(&survey, &plan, &frame, &openings, &covers),
             openings,
-            bounds,
-            wall_height,
+            bounds: Bounds { low, high },
+            wall_height: frame.z(survey.top_z),
             ball_radius: Radius::new(in_corridors * width)
                 .map_err(|_| AssembleError::NoRoom { radius: asked })?,
-            report: ImportReport {
-                up_axis,
-                scale: frame.scale(),
-                has_floor: survey.has_floor,
-                turned: survey.turn.walls_x,
-                ignored: survey.ignored,
-                adjusted: survey.adjusted,
-                merged_within: plan.merged_within.map(|within| within * frame.scale()),
-                thickened_to: plan.thickened_to.map(|thickness| thickness * frame.scale()),
-                doubtful_fraction: plan.doubtful_fraction,
-                passing_radius: passing.and_then(|radius| Radius::new(radius).ok()),
-            },
+            report: report(up_axis, survey, &plan, &frame, passing),
             route: Route {
                 start: ends.start,
                 goal: ends.goal,
@@ -234,6 +194,77 @@ impl Maze {
                 space: Arc::new(space),
             },
         })
+    }
+}
+
+/// What stands on one axis of a mesh, in file units.
+struct Ground<'a> {
+    survey: Survey<'a>,
+    plan: Occupancy,
+    covers: board::Covers,
+    /// Width of a corridor.
+    corridor: f64,
+}
+
+impl<'a> Ground<'a> {
+    fn of(
+        mesh: &'a PolygonMesh,
+        up_axis: UpAxis,
+        options: &AssembleOptions,
+        given: &Given,
+        tell: &mut dyn FnMut(Stage),
+    ) -> Result<Self, AssembleError> {
+        tell(Stage::Faces);
+        let mut survey = Survey::new(mesh, up_axis, false)?;
+        let cut = survey.cut_walls()?;
+        tell(Stage::Plan);
+        let mut plan = Occupancy::new(&cut)?;
+        drop(cut);
+        let mut covers = board::Covers::new(&survey, &plan);
+        let is_turned_over = covers.is_turned_over();
+        if is_turned_over {
+            let size = extent(mesh.positions()).amax();
+            plan = plan.turned_over(RING_FRACTION * size);
+            covers = board::Covers::new(&survey, &plan);
+        } else if plan.inverted {
+            // The walls face inwards, and so does all the rest: floors face down.
+            survey = Survey::new(mesh, up_axis, true)?;
+            plan = Occupancy::new(&survey.cut_walls()?)?;
+            covers = board::Covers::new(&survey, &plan);
+        }
+        covers.note_roof(&mut survey);
+        let corridor_of = |plan: &Occupancy| {
+            let corridor = plan.corridor().map(|found| given.corridor.unwrap_or(found));
+            corridor.ok_or(AssembleError::NoCorridor)
+        };
+        let corridor = corridor_of(&plan)?;
+        let radius = options.ball_radius.unwrap_or(BallSpec::RADIUS).units() * corridor;
+        let with_low = if is_turned_over { None } else { with_low_walls(&mut survey, &plan, radius)? };
+        let Some(plan) = with_low else { return Ok(Self { survey, plan, covers, corridor }) };
+        let (covers, corridor) = (board::Covers::new(&survey, &plan), corridor_of(&plan)?);
+        Ok(Self { survey, plan, covers, corridor })
+    }
+}
+
+/// What was found, changed and left out; `plan` is in maze units.
+fn report(
+    up_axis: UpAxis,
+    survey: Survey,
+    plan: &Occupancy,
+    frame: &Frame,
+    passing: Option<f64>,
+) -> ImportReport {
+    ImportReport {
+        up_axis,
+        scale: frame.scale(),
+        has_floor: survey.has_floor,
+        turned: survey.turn.walls_x,
+        ignored: survey.ignored,
+        adjusted: survey.adjusted,
+        merged_within: plan.merged_within.map(|within| within * frame.scale()),
+        thickened_to: plan.thickened_to.map(|thickness| thickness * frame.scale()),
+        doubtful_fraction: plan.doubtful_fraction,
+        passing_radius: passing.and_then(|radius| Radius::new(radius).ok()),
     }
 }
 

@@ -121,6 +121,9 @@ impl Maze {
     /// What a circle of a radius (units) touches first on the straight line between two points; here [`Sweep::Hit`]'s `time_s` is
     /// the fraction of the line, 0 to 1. For curved paths see [`SortedPlanes::sweep`].
     ///
+    /// Walls are met from the front: a circle that starts inside a wall, far from its faces, or beyond the board leaves it unhindered.
+    /// Ask [`Maze::is_free`] for the start where that matters.
+    ///
     /// # Errors
     /// A number that is not finite, a radius that is not greater than 0.
     pub fn sweep(&self, from: Vector2<f64>, to: Vector2<f64>, radius: f64) -> Result<Sweep, OutOfRange> {
@@ -162,6 +165,10 @@ impl Maze {
 }
 
 #[cfg(test)]
+#[allow(
+    clippy::disallowed_methods,
+    reason = "the truth that a test compares with may be computed in any way"
+)]
 mod tests {
     use crate::layout::{Algorithm, CorridorGraph, Metrics, Recipe};
     use crate::{AssembleOptions, Ball, Engine, Maze, Radius, extrude};
@@ -252,6 +259,43 @@ mod tests {
         assert!(
             maze.is_free(Vector2::zeros(), 0.0).is_err() && maze.is_free(Vector2::zeros(), -1.0).is_err()
         );
+    }
+
+    #[test]
+    fn what_is_free_is_what_the_blocks_of_the_layout_leave() {
+        for seed in 0..40 {
+            let layout = Recipe::new(6, 5, Algorithm::Wilson, seed).layout().unwrap();
+            let maze = layout.maze(&AssembleOptions::default()).unwrap();
+            let blocks = crate::Blocks::of_layout(&layout);
+            let lines =
+                |n: usize| (0..=n).map(|k| extrude::line(k) - extrude::line(n) / 2.0).collect::<Vec<_>>();
+            let (xs, ys) = (lines(blocks.width()), lines(blocks.height()));
+            // On a grid that meets corners and faces, a little off them, and in between.
+            let samples = |lines: &[f64]| {
+                let near = |x: &f64| [-0.07, -1.0e-4, 0.0, 1.0e-9, 1.0e-3, 0.051].map(|by| x + by);
+                lines.iter().flat_map(near).collect::<Vec<_>>()
+            };
+            let radius = 0.05;
+            for (x, y) in samples(&xs).into_iter().flat_map(|x| samples(&ys).into_iter().map(move |y| (x, y)))
+            {
+                // The distance to the nearest wall block, by all of them.
+                let mut nearest = f64::INFINITY;
+                for (i, j) in (0..blocks.width()).flat_map(|i| (0..blocks.height()).map(move |j| (i, j))) {
+                    if blocks.is_wall(i, j) {
+                        let dx = x.clamp(xs[i], xs[i + 1]) - x;
+                        let dy = y.clamp(ys[j], ys[j + 1]) - y;
+                        nearest = nearest.min((dx * dx + dy * dy).sqrt());
+                    }
+                }
+                let is_on_board = xs[0] < x && x < xs[xs.len() - 1] && ys[0] < y && y < ys[ys.len() - 1];
+                if (nearest - radius).abs() < 1.0e-8 {
+                    continue;
+                }
+                let expected = is_on_board && radius < nearest;
+                let found = maze.is_free(Vector2::new(x, y), radius).unwrap();
+                assert_eq!(found, expected, "seed {seed}: {x} {y}, {nearest} from the nearest wall");
+            }
+        }
     }
 
     #[test]

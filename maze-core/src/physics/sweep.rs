@@ -1,7 +1,7 @@
 //! Sweep queries: what a circle on a parabola touches first among all walls.
 //!
-//! The answer is bit for bit the same whichever way the planes are searched: every search hands the same numbers to the same
-//! functions of [`crate::time_of_impact`].
+//! From a start that overlaps no wall the answer is bit for bit the same in whichever order the planes are searched: every search
+//! passes the same numbers to the same functions of [`crate::time_of_impact`].
 
 use crate::physics::ball::OutOfRange;
 use crate::physics::contact;
@@ -90,7 +90,7 @@ pub enum Sweep {
     Overlaps {
         /// The face that is overlapped most deeply.
         wall: Plane,
-        /// By how much (units).
+        /// Radius less the distance from the centre to the nearest point of the face (units), on either side of it.
         depth: f64,
     },
     /// The first impact.

@@ -47,13 +47,14 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// `half_tangent_limit` is the tangent of half the steepest tilt it may use, as the player's limit: greater than 0, at most 1.
+    /// `half_tangent_limit` is the tangent of half the steepest tilt it may use, as the player's limit: from [`Tilt::STEP`] to 1, and
+    /// rounded to the nearest step.
     ///
     /// # Errors
     /// A limit out of range; a maze without a path from start to goal.
     pub fn new(maze: &Maze, half_tangent_limit: f64) -> Result<Self, AutopilotError> {
-        if !(0.0 < half_tangent_limit && half_tangent_limit <= 1.0) {
-            let expected = "greater than 0, at most 1";
+        if !(Tilt::STEP..=1.0).contains(&half_tangent_limit) {
+            let expected = "1/32768 to 1";
             return Err(OutOfRange { what: "the half-angle tangent of the steepest tilt", expected }.into());
         }
         let Route { goal, is_solvable, space, .. } = &maze.route;

@@ -176,7 +176,7 @@ pub fn state_hash(ball: Ball) -> u64 {
 }
 
 impl Recording {
-    /// As a file.
+    /// As a file. One with names of at most [`MAX_NAME`] bytes and at most [`MAX_TICKS`] ticks reads back.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
@@ -253,8 +253,11 @@ impl Recording {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// The ball and the tick are the recording's; they are not compared with the maze's ball.
+    ///
     /// # Errors
-    /// Another maze, an engine that is not known here, another final state.
+    /// Another maze, an engine that is not known here, constants that no ball or tick has, a tick that the engine refuses, another
+    /// final state.
     pub fn verify(&self, maze: &Maze) -> Result<Run, VerifyError> {
         let (planes, spec, tick_s) =
             (Arc::clone(&maze.planes), self.constants.spec()?, self.constants.tick_s);
@@ -270,13 +273,14 @@ impl Recording {
     /// is, whatever the tilts that follow.
     ///
     /// # Errors
-    /// Another maze, another final state.
+    /// Another maze, a tick that the engine refuses, another final state.
     pub fn verify_with(&self, maze: &Maze, engine: &mut dyn Engine) -> Result<Run, VerifyError> {
         let (recorded, found) = (self.maze_hash, maze_hash(maze));
         if recorded != found {
             return Err(VerifyError::OtherMaze { recorded, found });
         }
         let mut run = Run::new(maze);
+        let mut n_ticks = 0;
         for (index, tilt) in self.tilts.iter().enumerate() {
             if run.phase() == Phase::Finished {
                 break;
@@ -285,11 +289,12 @@ impl Recording {
             let acceleration = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
             let tick = engine.tick(acceleration).map_err(|error| VerifyError::Tick { index, error })?;
             run.observe(*tilt, [from, engine.ball().position], &tick).for_each(drop);
+            n_ticks += 1;
         }
         if state_hash(engine.ball()) == self.final_hash {
             Ok(run)
         } else {
-            Err(VerifyError::OtherEnd { n_ticks: self.tilts.len(), run })
+            Err(VerifyError::OtherEnd { n_ticks, run })
         }
     }
 }
@@ -410,6 +415,23 @@ mod tests {
             other.tilts[200] = Tilt::LEVEL;
             assert!(matches!(other.verify(&maze), Err(VerifyError::OtherEnd { .. })));
         }
+        // Tilts after the goal are not played.
+        let mut autopilot = crate::Autopilot::new(&maze, 0.17).unwrap();
+        let (mut engine, mut run) = (maze.exact_engine(0.03).unwrap(), Run::new(&maze));
+        let mut finished = Recording { tilts: Vec::new(), ..play(&mut engine.clone(), "continuous") };
+        while run.phase() != Phase::Finished {
+            let (tilt, from) = (autopilot.tilt(engine.ball()), engine.ball().position);
+            let tick =
+                engine.tick(gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze())).unwrap();
+            run.observe(tilt, [from, engine.ball().position], &tick).for_each(drop);
+            finished.tilts.push(tilt);
+        }
+        finished.final_hash = state_hash(engine.ball());
+        let n_played = finished.tilts.len();
+        finished.tilts.extend(vec![Tilt::LEVEL; 1000]);
+        assert_eq!(finished.verify(&maze).unwrap().phase(), Phase::Finished);
+        finished.final_hash ^= 1;
+        assert_eq!(finished.verify(&maze), Err(VerifyError::OtherEnd { n_ticks: n_played, run }));
         let good = play(&mut maze.exact_engine(0.03).unwrap(), "continuous");
         let message = |recording: Recording| recording.verify(&maze).unwrap_err().to_string();
         let unknown = Recording { engine: "pinball".to_owned(), ..good.clone() };

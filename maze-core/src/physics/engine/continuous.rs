@@ -97,3 +97,48 @@ impl Engine for Continuous {
         self.world.tick_s()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::gravity::Tilt;
+    use crate::physics::wall::{Facing, Plane};
+
+    /// Between two walls, one unit apart, at 10 units/s and without loss.
+    fn between_walls(tick_s: f64) -> Continuous {
+        let walls = [(Facing::PlusX, 0.0), (Facing::MinusX, 1.0)];
+        let walls = walls.map(|(facing, offset)| Plane { facing, offset, start: -9.0, end: 9.0 });
+        let spec = BallSpec { restitution: 1.0, ..BallSpec::default() };
+        let ball = Ball { position: Vector2::new(0.5, 0.0), velocity: Vector2::new(10.0, 0.0) };
+        Continuous::new(Arc::new(SortedPlanes::new(walls).unwrap()), spec, ball, tick_s).unwrap()
+    }
+
+    #[test]
+    fn simulated_hits_have_their_times_from_the_start() {
+        for tick_s in [0.01, 0.03, 1.0, 7.0] {
+            let hits = between_walls(tick_s).simulate(Tilt::LEVEL, 21.0).unwrap();
+            // The centre has 0.3 units of play, and starts in the middle of it.
+            assert!((699..=701).contains(&hits.len()), "{tick_s}: {}", hits.len());
+            for (n, hit) in hits.iter().enumerate() {
+                assert!((hit.time_s - (0.015 + 0.03 * n as f64)).abs() < 1.0e-9, "{tick_s}: {hit:?}");
+                assert!((hit.normal_speed() - 10.0).abs() < 1.0e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn a_time_that_cannot_be_simulated_is_refused() {
+        let refused = |tick_s: f64, duration_s: f64| {
+            let error = between_walls(tick_s).simulate(Tilt::LEVEL, duration_s).unwrap_err();
+            error.to_string()
+        };
+        for duration_s in [-1.0, f64::NAN, f64::INFINITY, 86_400_001.0] {
+            let message = "the time to simulate: expected seconds, 0 or more, of at most 86,400,000 ticks";
+            assert_eq!(refused(1.0, duration_s), message);
+        }
+        // More hits than a tick follows: nothing is dropped in silence.
+        let message = "the tick's length: expected so short that the engine drops no time";
+        assert_eq!(refused(1000.0, 1000.0), message);
+        assert!(between_walls(0.03).simulate(Tilt::LEVEL, 0.0).unwrap().is_empty());
+    }
+}

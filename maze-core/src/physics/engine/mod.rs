@@ -42,14 +42,14 @@ pub trait Engine {
     }
 
     /// Plays ticks under one tilt of the board for a time (s), rounded to whole ticks, and returns the hits that the engine
-    /// showed. Here [`Hit::time_s`] counts from the start of the call.
+    /// showed. Here [`Hit::time_s`] counts from the start of the call, to rounding.
     ///
     /// # Errors
-    /// A time that is negative or not finite, or more than 86,400,000 ticks; an acceleration that makes the velocity not finite,
-    /// after the ticks that could be played.
+    /// A time that is negative or not finite, or more than 86,400,000 ticks. After the ticks that could be played: an acceleration
+    /// that makes the velocity not finite, and a tick so long that the engine drops a part of it ([`Tick::dropped_s`]).
     fn simulate(&mut self, tilt: Tilt, duration_s: f64) -> Result<Vec<Hit>, OutOfRange> {
         let tick_s = self.tick_s();
-        let wanted = duration_s / tick_s + 0.5;
+        let wanted = duration_s / tick_s;
         if !(0.0 <= duration_s && wanted <= MAX_SIMULATED_TICKS) {
             let expected = "seconds, 0 or more, of at most 86,400,000 ticks";
             return Err(OutOfRange { what: "the time to simulate", expected });
@@ -59,13 +59,16 @@ pub trait Engine {
             clippy::cast_sign_loss,
             reason = "0 <= wanted <= 86,400,000"
         )]
-        let n_ticks = wanted as u32;
+        let n_ticks = (wanted + 0.5) as u32;
         let acceleration = gravity::project(gravity::WORLD_GRAVITY, &tilt.world_from_maze());
         let mut hits = Vec::new();
         for n in 0..n_ticks {
             let started_s = f64::from(n) * tick_s;
             let mut note = |hit: &Hit| hits.push(Hit { time_s: started_s + hit.time_s, ..*hit });
-            self.tick_observed(acceleration, &mut note)?;
+            if self.tick_observed(acceleration, &mut note)?.dropped_s != 0.0 {
+                let expected = "so short that the engine drops no time";
+                return Err(OutOfRange { what: "the tick's length", expected });
+            }
         }
         Ok(hits)
     }

@@ -4,6 +4,7 @@
 use super::Engine;
 use crate::physics::ball::{Ball, BallSpec, OutOfRange};
 use crate::physics::contact::{self, Contact};
+use crate::physics::numbers::lesser;
 use crate::physics::sorted_planes::SortedPlanes;
 use crate::physics::tick::{Hit, Log, Observer, Tick};
 use crate::physics::wall::Facing;
@@ -116,7 +117,7 @@ impl Published {
         let step_s = (self.tick_s - tick.dropped_s) / f64::from(n_steps);
         let mut log = Log { tick, observer };
         for n in 1..=n_steps {
-            self.step(step_s, f64::from(n) * step_s, &mut log);
+            self.step(step_s, lesser(f64::from(n) * step_s, self.tick_s), &mut log);
         }
         self.ball.velocity = self.spec.slowed(self.ball.velocity, self.tick_s);
         Ok(log.tick)

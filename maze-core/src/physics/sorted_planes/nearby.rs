@@ -129,12 +129,26 @@ impl SortedPlanes {
     }
 
     /// Whether a point lies inside a solid wall: behind all of the faces that are nearest to it. Needs a finite `point`.
+    ///
+    /// Of equally near faces, those that are nearest within their extent decide, and only where there are none those that are nearest
+    /// at an end: where a face ends at another one, a point may lie in front of its line and inside the wall.
     pub fn is_inside_wall(&self, point: Vector2<f64>) -> bool {
-        let Some(Clearance { distance, .. }) = self.clearance(point) else { return false };
+        let Some(Clearance { plane: nearest, distance }) = self.clearance(point) else { return false };
+        // Widened against rounding, and for a point on a face; equally near faces have the same squares, to the bit.
+        let reach = distance * WIDENED + f64::MIN_POSITIVE.sqrt();
+        let least = squared_distance(&nearest, point);
+        let is_beyond_an_end = |plane: &Plane| 0.0 < plane.gap(point[1 - plane.facing.axis()]);
         let is_in_front =
             |plane: &Plane| 0.0 <= (point[plane.facing.axis()] - plane.offset) * plane.facing.sign();
-        // Widened, so that rounding does not hide the second face of a corner.
-        !self.planes_within(point, distance * WIDENED + f64::MIN_POSITIVE).any(|plane| is_in_front(&plane))
+        // The nearest one is named too: squares of great distances are infinite, and then nothing is within reach.
+        let candidates = || {
+            let near = self.planes_within(point, reach);
+            near.chain([nearest]).filter(|plane| squared_distance(plane, point) == least)
+        };
+        if candidates().all(|plane| is_beyond_an_end(&plane)) {
+            return !candidates().any(|plane| is_in_front(&plane));
+        }
+        !candidates().any(|plane| !is_beyond_an_end(&plane) && is_in_front(&plane))
     }
 
     /// The plain O(n) truth that [`SortedPlanes::clearance`] is tested against.
@@ -144,5 +158,47 @@ impl SortedPlanes {
             nearest.offer(plane, centre);
         }
         nearest.clearance()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn face(facing: Facing, offset: f64, start: f64, end: f64) -> Plane {
+        Plane { facing, offset, start, end }
+    }
+
+    #[test]
+    fn a_point_behind_a_face_is_inside_also_where_another_face_ends_there() {
+        // A free quadrant: the wall is all the rest.
+        let quadrant = [face(Facing::PlusX, 0.0, 0.0, 9.0), face(Facing::PlusY, 0.0, 0.0, 9.0)];
+        let planes = SortedPlanes::new(quadrant).unwrap();
+        let is_inside = |x: f64, y: f64| planes.is_inside_wall(Vector2::new(x, y));
+        for y in [-1.0, -1.0e-3, -1.0e-17, 0.0, 1.0e-17, 1.0e-4, 1.0e-3, 0.5] {
+            assert!(is_inside(-1.0, y) && is_inside(y, -1.0), "{y}");
+        }
+        assert!(!is_inside(1.0, 1.0e-9) && !is_inside(0.5, 0.5));
+        // A solid quadrant: the corner is seen from outside.
+        let block = [face(Facing::PlusX, 0.0, -9.0, 0.0), face(Facing::PlusY, 0.0, -9.0, 0.0)];
+        let planes = SortedPlanes::new(block).unwrap();
+        let is_inside = |x: f64, y: f64| planes.is_inside_wall(Vector2::new(x, y));
+        for y in [0.0, 1.0e-17, 1.0e-4, 1.0] {
+            assert!(!is_inside(1.0, y) && !is_inside(y, 1.0) && !is_inside(1.0, -y), "{y}");
+        }
+        assert!(is_inside(-1.0, -1.0e-9) && is_inside(-0.5, -0.5));
+    }
+
+    #[test]
+    fn nothing_is_inside_of_a_wall_without_thickness() {
+        let wall = [face(Facing::PlusX, 0.0, 0.0, 1.0), face(Facing::MinusX, 0.0, 0.0, 1.0)];
+        let planes = SortedPlanes::new(wall).unwrap();
+        for (x, y) in [(0.0, 0.5), (0.0, 0.0), (0.0, 2.0), (0.3, 0.5), (-0.3, 1.0), (1.0e-300, 0.5)] {
+            assert!(!planes.is_inside_wall(Vector2::new(x, y)), "{x} {y}");
+        }
+        // So far away that squares are infinite.
+        let planes = SortedPlanes::new([face(Facing::MinusX, 1.0e155, -1.0, 1.0)]).unwrap();
+        assert!(!planes.is_inside_wall(Vector2::zeros()));
+        assert!(planes.is_inside_wall(Vector2::new(1.0e156, 0.0)));
     }
 }

@@ -122,7 +122,8 @@ impl World {
     /// world, make a new state of [`BallState::ball`].
     ///
     /// # Errors
-    /// An acceleration that is not finite, or one that makes the velocity so; the ball stays as it was.
+    /// A position, velocity or acceleration whose square is not finite, at the start or at the end of the tick; the ball stays as it
+    /// was.
     #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
     pub fn tick<O: Observer + ?Sized>(
         &self,
