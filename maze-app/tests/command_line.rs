@@ -1,30 +1,14 @@
 //! The command line: what it prints, what it refuses, and that nothing is left half-written.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod program;
+
+use program::{DEFAULT_MAZE, maze_app, refused, stdout};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
-const DEFAULT_MAZE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/mazes/default.obj");
-
-fn maze_app(arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_maze-app"));
-    command.args(arguments).env("XDG_RUNTIME_DIR", std::env::temp_dir());
-    command
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
-}
-
-/// Runs, and expects exit status 2 and one line on stderr that holds `expected`.
-fn refused(command: &mut Command, expected: &str) {
-    let output = command.output().unwrap();
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{command:?}: {stderr}");
-    assert_eq!(stderr.lines().count(), 1, "{command:?}: {stderr}");
-    assert!(stderr.starts_with("maze-app: "), "{stderr}");
-    assert!(stderr.contains(expected), "expected `{expected}` in: {stderr}");
-    assert!(output.stdout.is_empty(), "{command:?}");
+fn json(arguments: &[&str]) -> serde_json::Value {
+    program::json(&mut maze_app(arguments))
 }
 
 /// A directory with one file in it.
@@ -221,12 +205,6 @@ fn the_default_maze_is_what_its_first_line_says() {
 }
 
 /// Runs, expects success, and reads the JSON object that it prints.
-fn json(arguments: &[&str]) -> serde_json::Value {
-    let output = maze_app(arguments).output().unwrap();
-    assert!(output.status.success(), "{arguments:?}: {output:?}");
-    serde_json::from_slice(&output.stdout).unwrap()
-}
-
 #[test]
 fn the_autopilot_reaches_the_goal_and_its_recording_ends_in_the_same_state() {
     let directory = tempfile::tempdir().unwrap();
@@ -489,7 +467,7 @@ fn a_sidecar_decides_flags_win_and_its_faults_are_told_with_the_line() {
 fn a_negative_number_is_a_bad_value_not_an_unknown_flag() {
     for (flag, value) in [("--size", "-3x4"), ("--braid", "-0.1"), ("--seed", "-1"), ("--river", "-1")] {
         let arguments = ["generate", flag, value, "--out", "x.obj"];
-        let output = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(arguments).output().unwrap();
+        let output = maze_app(&arguments).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.code() == Some(2) && said.contains("invalid value '-"), "{said}");
     }

@@ -1,16 +1,12 @@
 //! Every level that comes with the game can be finished, in the time that its par says.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use std::process::{Command, Output};
+mod program;
 
-fn maze_app(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_maze-app")).args(arguments).output().unwrap()
-}
+use program::maze_app;
 
 fn json(arguments: &[&str]) -> serde_json::Value {
-    let output = maze_app(arguments);
-    assert!(output.status.success(), "{arguments:?}: {output:?}");
-    serde_json::from_slice(&output.stdout).unwrap()
+    program::json(&mut maze_app(arguments))
 }
 
 /// The `par_ticks` of assets/levels.toml, in their order.
@@ -37,7 +33,7 @@ fn the_autopilot_finishes_every_level_in_its_par() {
         "the autopilot's ticks are not the levels' par: if intended, update par_ticks in assets/levels.toml"
     );
     let number = (pars.len() + 1).to_string();
-    let output = maze_app(&["autopilot", "--level", &number]);
+    let output = maze_app(&["autopilot", "--level", &number]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert!(stderr.contains(&format!("expected 1 to {}", pars.len())), "{stderr}");

@@ -1,41 +1,24 @@
 //! What a command writes: checked before the work, never over its input, and readable again.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod program;
+
+use program::{DEFAULT_MAZE, maze_app_in};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 
-const MAZE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/mazes/default.obj");
-
-fn maze_app(directory: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_maze-app"));
-    command.args(arguments).current_dir(directory).env("XDG_RUNTIME_DIR", directory);
-    // Nothing here may open a window.
-    command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap()
-}
-
-/// Runs, and expects exit status 2 and one line on stderr that holds `expected`.
 fn refused(directory: &Path, arguments: &[&str], expected: &str) {
-    let output = maze_app(directory, arguments);
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
-    assert_eq!(stderr.lines().count(), 1, "{arguments:?}: {stderr}");
-    assert!(
-        stderr.starts_with("maze-app: ") && stderr.contains(expected),
-        "expected `{expected}` in: {stderr}"
-    );
-    assert!(!stderr.trim_end().contains(char::is_control), "{stderr:?}");
+    program::refused(&mut maze_app_in(directory, arguments), expected);
 }
 
 fn works(directory: &Path, arguments: &[&str]) -> String {
-    let output = maze_app(directory, arguments);
-    assert!(output.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
+    program::works(&mut maze_app_in(directory, arguments))
 }
 
 /// A directory with a maze `m.obj`.
 fn with_maze() -> tempfile::TempDir {
     let directory = tempfile::tempdir().unwrap();
-    std::fs::copy(MAZE, directory.path().join("m.obj")).unwrap();
+    std::fs::copy(DEFAULT_MAZE, directory.path().join("m.obj")).unwrap();
     directory
 }
 
@@ -127,7 +110,7 @@ fn r6_a_name_that_a_recording_cannot_write_is_refused_before_the_work() {
     let scratch = with_maze();
     for name in [&b"\xff.obj"[..], b"a\nb.obj"] {
         let name = std::ffi::OsStr::from_bytes(name);
-        std::fs::copy(MAZE, scratch.path().join(name)).unwrap();
+        std::fs::copy(DEFAULT_MAZE, scratch.path().join(name)).unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_maze-app"));
         command.current_dir(scratch.path()).arg("autopilot").arg(name).args(["--record", "run.maze"]);
         let output = command.output().unwrap();
@@ -186,7 +169,7 @@ fn r13_r17_nothing_from_outside_reaches_the_terminal_as_it_is() {
     for flag in [["--seed", harmful], ["--seed", &long], ["--size", harmful], ["--engine", harmful]] {
         refused(scratch.path(), &[&["generate", "--out", "x.txt"], &flag[..]].concat(), "(see --help)");
     }
-    let line = maze_app(scratch.path(), &["info", "l.obj"]).stderr;
+    let line = maze_app_in(scratch.path(), &["info", "l.obj"]).output().unwrap().stderr;
     assert!(line.len() < 1500, "{}", String::from_utf8_lossy(&line));
 }
 

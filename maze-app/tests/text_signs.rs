@@ -1,16 +1,17 @@
 //! F11 on the command line: how a text is read can be stated, beside the file and by flags, and a recording keeps it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod program;
+
+use program::maze_app_in;
 use std::path::Path;
-use std::process::Command;
 
 /// The walls of this one could be either sign.
 const STRIPES: &str = "00000\n11111\n00000\n11111\n00000\n";
 
 /// Runs in a directory; exit status, stdout and stderr.
 fn run(directory: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_maze-app")).args(arguments).current_dir(directory).output().unwrap();
+    let output = maze_app_in(directory, arguments).output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     (output.status.code(), text(&output.stdout), text(&output.stderr))
 }
