@@ -33,7 +33,7 @@ impl SweepQuery {
     /// A circle of a radius (units) on a path, until a time (s).
     ///
     /// # Errors
-    /// A number that is not finite, or so large that its square is not; a radius that is not greater than 0; a time less than 0.
+    /// A number that is not finite, or so large that the square of how far or fast it leads is not; a radius that is not greater than 0; a time less than 0.
     pub fn new(path: Path, radius: f64, until_s: f64) -> Result<Self, OutOfRange> {
         if !(0.0 < radius && (radius * radius).is_finite()) {
             return Err(OutOfRange {
@@ -44,9 +44,12 @@ impl SweepQuery {
         if !(0.0 <= until_s && until_s.is_finite()) {
             return Err(OutOfRange { what: "the time of the sweep", expected: "a finite number, 0 or more" });
         }
-        let is_within = |vector: Vector2<f64>| vector.norm_squared().is_finite();
-        let [first, last] = [0.0, until_s].map(|time_s| [path.at(time_s), path.velocity_at(time_s)]);
-        if !first.into_iter().chain(last).chain([path.acceleration]).all(is_within) {
+        // Bounds of the three vectors throughout; their squares are in reach of every search.
+        let bound = |vector: Vector2<f64>| vector.x.abs() + vector.y.abs();
+        let acceleration = bound(path.acceleration);
+        let speed = bound(path.velocity) + acceleration * until_s;
+        let extent = bound(path.position) + speed * until_s;
+        if !(acceleration * acceleration + speed * speed + extent * extent).is_finite() {
             return Err(OutOfRange::not_finite("the path of the circle"));
         }
         Ok(Self { path, radius, until_s, left: None })

@@ -3,7 +3,9 @@
 use super::BenchError;
 use crate::board::Board;
 use maze_core::Path;
-use maze_core::{Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, Radius, SortedPlanes};
+use maze_core::{
+    Ball, BallSpec, Bounds, Continuous, Engine, Facing, Layout, Plane, Radius, SortedPlanes, SweepQuery,
+};
 use maze_core::{extrude, layout};
 use nalgebra::Vector2;
 use rand_chacha::ChaCha8Rng;
@@ -52,6 +54,8 @@ pub struct Query {
     pub path: Path,
     /// How long it moves (s).
     pub until_s: f64,
+    /// The same as maze-core takes it, checked.
+    pub sweep: SweepQuery,
 }
 
 /// Queries of one kind.
@@ -64,6 +68,15 @@ pub struct QuerySet {
 }
 
 impl Query {
+    /// A circle on a path, until a time (s).
+    ///
+    /// # Errors
+    /// What [`SweepQuery::new`] refuses.
+    pub fn new(path: Path, until_s: f64) -> Result<Self, BenchError> {
+        let sweep = SweepQuery::new(path, RADIUS, until_s).map_err(BenchError::set_up)?;
+        Ok(Self { path, until_s, sweep })
+    }
+
     /// Of the straight line from where the path starts to where it ends, for casts that know no acceleration.
     pub fn mean_velocity(&self) -> Vector2<f64> {
         self.path.velocity + self.path.acceleration * (self.until_s / 2.0)
@@ -194,23 +207,24 @@ impl Case {
     }
 
     /// Circles anywhere in free cells that move so far (units) in any direction within 1 s.
-    pub fn random(&self, name: &'static str, step: f64, n: usize) -> QuerySet {
+    ///
+    /// # Errors
+    /// A step that is not finite.
+    pub fn random(&self, name: &'static str, step: f64, n: usize) -> Result<QuerySet, BenchError> {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
         let room = extrude::CORRIDOR / 2.0 - RADIUS;
         let query = |_| {
             let cell = Vector2::from_fn(|_, _| below(&mut rng, self.side));
             let aside = Vector2::from_fn(|_, _| room * (2.0 * unit(&mut rng) - 1.0));
             let (sin, cos) = (unit(&mut rng) * std::f64::consts::TAU).sin_cos();
-            Query {
-                path: Path {
-                    position: self.centre(cell.x, cell.y) + aside,
-                    velocity: Vector2::new(cos, sin) * step,
-                    acceleration: Vector2::zeros(),
-                },
-                until_s: 1.0,
-            }
+            let path = Path {
+                position: self.centre(cell.x, cell.y) + aside,
+                velocity: Vector2::new(cos, sin) * step,
+                acceleration: Vector2::zeros(),
+            };
+            Query::new(path, 1.0)
         };
-        QuerySet { name, queries: (0..n).map(query).collect() }
+        Ok(QuerySet { name, queries: (0..n).map(query).collect::<Result<_, _>>()? })
     }
 
     /// What a ball asks that is rolled tick after tick by the exact engine, from the middle of the maze.
@@ -231,7 +245,7 @@ impl Case {
             let moves = |axis, acceleration: f64| if rests(axis) { 0.0 } else { acceleration * spec.rolling };
             let acceleration = Vector2::new(moves(0, acceleration.x), moves(1, acceleration.y));
             let path = Path { position: before.position, velocity: before.velocity, acceleration };
-            queries.push(Query { path, until_s: TICK_S });
+            queries.push(Query::new(path, TICK_S)?);
         }
         Ok(QuerySet { name, queries })
     }
@@ -270,7 +284,7 @@ fn below(rng: &mut ChaCha8Rng, bound: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use maze_core::{SweepQuery, sweep};
+    use maze_core::sweep;
 
     #[test]
     fn the_faces_are_those_of_the_board_and_know_their_corners() {
@@ -294,7 +308,7 @@ mod tests {
     fn circles_start_free_and_go_as_far_as_asked() {
         let case = Case::new(8, 1).unwrap();
         let board = Board::from_planes(case.planes());
-        for Query { path, until_s } in case.random("", 10.0, 1000).queries {
+        for Query { path, until_s, .. } in case.random("", 10.0, 1000).unwrap().queries {
             assert!(board.penetration(path.position, RADIUS) <= 1.0e-12);
             assert!((path.velocity.norm() * until_s - 10.0).abs() < 1.0e-12);
         }
@@ -306,10 +320,7 @@ mod tests {
         let rolled = case.coherent("", 3000).unwrap().queries;
         let from = rolled[0].path.position;
         assert!(rolled.iter().any(|query| 1.0 < (query.path.position - from).norm()));
-        let touches = |query: &&Query| {
-            let query = SweepQuery::new(query.path, RADIUS, query.until_s).unwrap();
-            sweep::first_impact(case.planes(), &query).is_some()
-        };
+        let touches = |query: &&Query| sweep::first_impact(case.planes(), &query.sweep).is_some();
         let n_touches = rolled.iter().filter(touches).count();
         assert!((30..1500).contains(&n_touches), "{n_touches}");
     }

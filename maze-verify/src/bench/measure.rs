@@ -81,7 +81,7 @@ impl Plan {
     pub fn query_sets(&self, case: &Case) -> Result<Vec<QuerySet>, BenchError> {
         let random = RANDOM.into_iter().zip(STEPS);
         let mut sets: Vec<QuerySet> =
-            random.map(|(name, step)| case.random(name, step, self.n_queries)).collect();
+            random.map(|(name, step)| case.random(name, step, self.n_queries)).collect::<Result<_, _>>()?;
         sets.push(case.coherent(COHERENT, self.n_queries)?);
         Ok(sets)
     }

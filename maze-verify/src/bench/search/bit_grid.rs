@@ -151,7 +151,7 @@ impl First<'_> {
 
     /// From cell to cell along a straight line, until something is touched before the next one.
     fn walk(&mut self, grid: &BitGrid, mut cell: [usize; 2], moves: u64) {
-        let Query { path: Path { position: from, velocity, .. }, until_s: end_s } = *self.query;
+        let Query { path: Path { position: from, velocity, .. }, until_s: end_s, .. } = *self.query;
         let inverse = velocity.map(|speed| 1.0 / speed);
         let leaves = |axis: usize, cell: usize| match velocity[axis] == 0.0 {
             true => f64::INFINITY,
@@ -227,7 +227,7 @@ impl First<'_> {
 
     /// A corner, unless the chord shows that it is not touched before what is known: then no root is sought.
     fn corner(&mut self, point: Vector2<f64>) {
-        let Query { path, until_s } = self.query;
+        let Query { path, until_s, .. } = self.query;
         let (chord, reach) = (self.chord, self.reach * self.reach);
         let from_start = point - path.position;
         let aside = from_start.perp(&chord);

@@ -130,15 +130,18 @@ pub const CONTENDERS: [Contender; 13] = {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use maze_core::Path;
 
     #[test]
     fn the_exact_ones_agree_on_parabolas_over_several_cells_too() {
         let case = Case::new(9, 2).unwrap();
-        let mut queries = case.random("", 2.0, 3000).queries;
+        let mut queries = case.random("", 2.0, 3000).unwrap().queries;
         for (index, acceleration) in
             super::super::case::turning_accelerations().into_iter().cycle().take(3000).enumerate()
         {
-            queries[index].path.acceleration = acceleration * [0.5, 4.0, 30.0][index % 3];
+            let Query { path, until_s, .. } = queries[index];
+            let acceleration = acceleration * [0.5, 4.0, 30.0][index % 3];
+            queries[index] = Query::new(Path { acceleration, ..path }, until_s).unwrap();
         }
         let exact = CONTENDERS.iter().filter(|contender| contender.agreement == Agreement::Exact);
         let answers = exact.map(|contender| {

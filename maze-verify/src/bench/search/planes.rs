@@ -15,9 +15,7 @@ struct Planes<F> {
 
 impl<F: Fn(&SortedPlanes, &SweepQuery) -> Option<Impact>> Search for Planes<F> {
     fn first_touch(&mut self, query: &Query) -> Option<f64> {
-        // As a user of the library asks: the numbers are checked in every query.
-        let query = SweepQuery::new(query.path, RADIUS, query.until_s).ok()?;
-        (self.find)(&self.planes, &query).map(|impact| impact.time_s)
+        (self.find)(&self.planes, &query.sweep).map(|impact| impact.time_s)
     }
 }
 

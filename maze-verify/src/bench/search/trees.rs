@@ -25,7 +25,7 @@ fn ends(face: &WallFace) -> [Vector2<f64>; 2] {
 
 /// The earliest touch, from what `near` finds in the box around each piece of the path.
 fn first_touch(query: &Query, near: impl Fn([Vector2<f64>; 2], &mut dyn FnMut(&WallFace))) -> Option<f64> {
-    let Query { path, until_s } = query;
+    let Query { path, until_s, .. } = query;
     // A parabola strays this far from its chord.
     let sag = path.acceleration.abs() * (until_s * until_s / 8.0);
     let n_pieces = (query.mean_velocity().norm() * until_s / PIECE).ceil().max(1.0);
@@ -49,7 +49,7 @@ fn first_touch(query: &Query, near: impl Fn([Vector2<f64>; 2], &mut dyn FnMut(&W
 
 /// When a face or one of its corners is touched (s), without end when it is not.
 fn touch(query: &Query, face: &WallFace) -> f64 {
-    let Query { path, until_s } = query;
+    let Query { path, until_s, .. } = query;
     let mut best = time_of_impact::face(path, RADIUS, &face.plane).unwrap_or(f64::INFINITY);
     for (point, is_corner) in ends(face).into_iter().zip(face.is_corner) {
         if is_corner && can_touch(query, point) {
