@@ -3,8 +3,8 @@
 //! `cargo run -p maze-render --example bake_textures [OUT_DIR]`
 //!
 //! Every texture is a plain function of `(u, v)` in the unit square, `v` downwards, that repeats with period 1.
-//! It gives a colour and a height; soft light from the height is then baked into the colour, as the renderer
-//! has no normal maps. The arithmetic is `+ - * /`, `sqrt` and `floor` only, all exactly specified by IEEE 754:
+//! It gives a colour and a height; soft light from the height is then baked into the colour, for the
+//! quality that draws without normal maps. The arithmetic is `+ - * /`, `sqrt` and `floor` only, all exactly specified by IEEE 754:
 //! the files come out bit for bit the same.
 
 use std::path::{Path, PathBuf};

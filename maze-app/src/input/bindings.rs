@@ -1,4 +1,4 @@
-//! One table: what each key does. The list of keys on screen is made from it too.
+//! One table: what each key does. The list of keys on screen (`ui/hud.rs`) takes the letters from it, and has words of its own.
 //!
 //! A press is looked up once, so no key can do two things, whatever the layout. Keys that print something are identified by
 //! their place on the keyboard, all others by their name:

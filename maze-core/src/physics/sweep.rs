@@ -44,7 +44,7 @@ impl SweepQuery {
         if !(0.0 <= until_s && until_s.is_finite()) {
             return Err(OutOfRange { what: "the time of the sweep", expected: "a finite number, 0 or more" });
         }
-        // Bounds of the three vectors throughout; their squares are in reach of every search.
+        // Upper bounds of the three vectors throughout the sweep; searches square such values.
         let bound = |vector: Vector2<f64>| vector.x.abs() + vector.y.abs();
         let acceleration = bound(path.acceleration);
         let speed = bound(path.velocity) + acceleration * until_s;
@@ -195,9 +195,9 @@ impl<'a> Search<'a> {
     /// The groups across one axis that oppose the motion.
     fn search_axis(&mut self, planes: &SortedPlanes, axis: usize, watch: &mut impl FnMut(Visit)) {
         let start = self.query.path.velocity[axis];
-        // Within the whole time: a touch at its very start, on the other axis, must not hide one of equal time here.
+        // The whole time of the query counts, so that an impact at time 0 on the other axis does not hide one at time 0 on this axis.
         let end = start + self.query.path.acceleration[axis] * self.query.until_s;
-        // The end of a wall without thickness belongs to no face that opposes a motion along the wall.
+        // A motion along a wall without thickness opposes neither of its faces, and may hit its end: then all groups are searched.
         let all = planes.has_free_ends();
         let (falls, rises) = (all || start < 0.0 || end < 0.0, all || 0.0 < start || 0.0 < end);
         if !falls && !rises {
@@ -272,7 +272,7 @@ impl<'a> Search<'a> {
         {
             return;
         }
-        // Ends of neighbouring faces at the same place count as the point that was left.
+        // A face end within the snap tolerance of the point that was left counts as that point.
         let has_left = self
             .query
             .left
@@ -307,8 +307,8 @@ impl<'a> Search<'a> {
     /// Whether a point is culled because the path separates from it from the start, or is still out of its reach and closing at the
     /// earliest impact so far.
     ///
-    /// Either holds all the time where the squared distance is convex: where |v|² + d.a is positive, with v as fast as at
-    /// first but for what the acceleration takes, and d, to a point within reach, at most twice the distance covered and the reach.
+    /// Both hold throughout where the squared distance is convex, that is where |v|² + d.a > 0. The speed is at least the first speed
+    /// less a t; d, the distance to a point within the swept bounds, is at most twice the distance covered and the reach.
     fn is_separating_or_not_yet_reached(&self, point: Vector2<f64>) -> bool {
         let (until_s, path) = (self.until_s, &self.query.path);
         let (speed, acceleration) = (path.velocity.norm(), path.acceleration.norm());
@@ -336,7 +336,8 @@ impl<'a> Search<'a> {
     }
 
     /// Which of two impacts at the same time counts: a face before a point, then the nearer one, then the one that is approached
-    /// faster, then the one that stands out farther. All of that is the same in a scene that is mirrored or turned; only then the coordinates decide.
+    /// faster, then the more prominent one ([`Feature::prominence`]). All of that is the same in a scene that is mirrored or turned;
+    /// only then the coordinates decide.
     #[cold]
     #[inline(never)]
     fn comes_first(&self, one: &Impact, other: &Impact) -> bool {
@@ -362,7 +363,7 @@ impl<'a> Search<'a> {
         if start[axis] * end[axis] <= 0.0 || start[1 - axis] * end[1 - axis] < 0.0 {
             return [low, high];
         }
-        // Not before the faster of the two speeds leads there, and not after the slower one leads away.
+        // The earliest arrival is that at the higher of the two speeds, the latest departure that at the lower one.
         let (start, end) = (start[axis].abs(), end[axis].abs());
         let (slow, fast) = if start < end { (start, end) } else { (end, start) };
         let gap = offset - path.position[axis];
@@ -377,7 +378,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A total order of features, so that the order of the search does not show.
+/// A total order of features, so that the order of the search does not affect the result.
 fn rank(feature: &Feature) -> (u8, f64, f64) {
     match feature {
         Feature::Face(plane) => (plane.facing as u8, plane.offset, plane.start),
@@ -387,8 +388,8 @@ fn rank(feature: &Feature) -> (u8, f64, f64) {
 
 /// What the circle of a query touches first: the sweep that the exact engine asks for.
 ///
-/// A face that the circle overlaps at the start is not touched, as for a ball that comes from behind it; [`SortedPlanes::sweep`]
-/// tells an overlap. The search goes through the groups that oppose the motion, the faster coordinate first.
+/// A face that the circle overlaps at the start is ignored, so that a ball may come from behind it; [`SortedPlanes::sweep`]
+/// reports an overlap. The search goes through the groups that oppose the motion, the faster coordinate first.
 ///
 /// O(log n) for each row that the circle passes until the impact.
 pub fn first_impact(planes: &SortedPlanes, query: &SweepQuery) -> Option<Impact> {

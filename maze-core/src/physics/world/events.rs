@@ -1,4 +1,4 @@
-//! One searched tick, event by event: in flight on a parabola, along a face, around a point on an arc.
+//! A tick that the free-space cache cannot answer, event by event: in flight on a parabola, along a face, around a point on an arc.
 
 use super::collision::{self, Surface};
 use super::free_space::FreeSpace;
@@ -15,8 +15,8 @@ use crate::physics::tolerance::{self, TANGENT};
 use crate::physics::wall::Feature;
 use nalgebra::Vector2;
 
-/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face from speed v end
-/// in rest after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face with
+/// restitution e end from speed v, when they are slower than the rest speed v_rest, after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998
 /// from up to 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses little may have more between near walls; the time that
 /// is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 4096;
@@ -49,7 +49,7 @@ pub(super) struct Events<'a, O: Observer + ?Sized> {
 }
 
 impl World {
-    /// A tick that is searched. The acceleration is the ball's own.
+    /// A tick that needs searches. The acceleration is already multiplied by [`BallSpec::rolling`](crate::BallSpec::rolling).
     #[inline(never)]
     pub(super) fn searched_tick<O: Observer + ?Sized>(
         &self,
@@ -110,7 +110,7 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
         let from = self.state.ball.position;
         self.run();
         self.refresh_free_space();
-        // Where free space was found, every plane near was checked but the faces that support the ball, which it was put onto.
+        // A free space that was found proves that nothing overlaps but the supports, on which the ball was placed exactly.
         if self.state.free_space.is_none() {
             self.guard(from);
         }
@@ -126,7 +126,7 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
             && self.world.spec.holds(ball.velocity, contacts.along(self.acceleration), self.world.tick_s)
     }
 
-    /// Goes from event to event until the tick is over. Contacts are those that the acceleration presses.
+    /// Goes from event to event until the tick is over. Active contacts are those onto which the acceleration pushes the ball.
     fn run(&mut self) {
         for _ in 0..MAX_EVENTS {
             match self.state.contacts.first() {
@@ -236,7 +236,8 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
         state.n_ticks_to_wait = if state.free_space.is_some() { 0 } else { RETRY_TICKS };
     }
 
-    /// How strongly the acceleration presses the ball onto a feature (units/s²), where another one may support it.
+    /// How strongly the acceleration presses the ball onto a feature (units/s²): the larger of the values with and without the other
+    /// feature as a support.
     fn pressing(&self, normal: Vector2<f64>, support: Option<Vector2<f64>>) -> f64 {
         let acceleration = self.acceleration;
         let alone = -acceleration.dot(&normal);
@@ -256,7 +257,7 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
         let position = feature.touching(before.position, normal, radius);
         let contact = Contact { feature, normal };
         let support = self.state.contacts.first().copied();
-        // A feature that was hit at the same place a moment ago still is touched.
+        // Another feature that was hit at the same place before counts as a second, simultaneous contact.
         let snap = tolerance::snap(radius, position);
         let is_again = |(place, again): &(Vector2<f64>, Contact)| {
             (position - place).amax() <= snap && again.feature != feature
@@ -293,7 +294,7 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
             _ => contacts.clear(),
         }
         self.recent.hit = Some((position, contact));
-        // Through a gap that is too narrow by a graze the ball passes: the point on the other side is not hit again here.
+        // The ball passes a gap that is narrower than itself by less than a graze: the point on the other side is not hit again here.
         if let Some(Contact { feature: Feature::Point(point), normal: opposite }) = other
             && collision::are_opposite(opposite, normal)
         {
@@ -337,8 +338,8 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
         }
     }
 
-    /// Goes on along a feature that the arc leads onto without a hit: the face where an arc ends, or a point so near that the
-    /// ball moves along it.
+    /// Continues along a feature without a bounce when the arc approaches it tangentially: the face where an arc ends, or a point so
+    /// near that the ball moves along it.
     fn rolls_onto(&mut self, feature: Feature, from: Vector2<f64>) -> bool {
         let radius = self.radius();
         let BallState { ball, contacts, .. } = &mut *self.state;

@@ -27,7 +27,7 @@ const MAX_ACCELERATION: f64 = 1.0e140;
 pub(super) struct FreeSpace {
     low: Vector2<f64>,
     high: Vector2<f64>,
-    /// For each axis the sign of the face that supports the ball, 0 for none. The box has no extent there.
+    /// For each axis the sign of the face that supports the ball, 0 for none. The box has zero width on that axis.
     support: Vector2<f64>,
 }
 
@@ -56,7 +56,7 @@ impl FreeSpace {
             let (across, along) = (facing.axis(), 1 - facing.axis());
             let support = supports[across].filter(|face| face.facing == facing);
             for row in planes.rows(facing, planes.rows_at(facing, &ranks[across])) {
-                // Planes met before have made the box smaller.
+                // The box may have shrunk since the rows were chosen.
                 if free.high[across] <= row.offset() - reach || row.offset() + reach <= free.low[across] {
                     continue;
                 }
@@ -102,10 +102,10 @@ impl FreeSpace {
         }
         let is_below = centre[across] < plane.offset;
         let is_before = centre[along] < plane.start;
-        // How far the centre is from the plane along either axis; negative where it is beside it.
+        // How far the centre is from the plane along either axis; `gap` is negative when the centre is alongside the face.
         let away = if is_below { plane.offset - centre[across] } else { centre[across] - plane.offset };
         let gap = if is_before { plane.start - centre[along] } else { centre[along] - plane.end };
-        // Beyond reach along one axis, the box ends where the reach does; else both end on the circle around the corner.
+        // If one axis alone clears the plane, the box is cut along it; otherwise along both, at the circle around the corner.
         let (ends_across, ends_along) = if reach <= away && gap <= away {
             (Some(reach), None)
         } else if reach <= gap {
@@ -156,7 +156,7 @@ impl FreeSpace {
         }
         let to = from + (speed + acceleration * (time_s / 2.0)) * time_s;
         let end_speed = speed + acceleration * time_s;
-        // Where it turns, it goes no farther than it would have gone at its first speed.
+        // If the velocity reverses, the end of the motion without acceleration bounds the turning point.
         let stays =
             self.holds(axis, to) && (0.0 <= speed * end_speed || self.holds(axis, from + speed * time_s));
         stays.then_some((to, end_speed))

@@ -49,7 +49,7 @@ pub(crate) fn check_tick_s(tick_s: f64) -> Result<f64, OutOfRange> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-#[repr(C)] // What the usual tick needs comes last, beside the state of the ball in `Continuous`.
+#[repr(C)] // Field order for memory locality: the last fields lie beside the state of the ball in `Continuous`.
 pub struct World {
     planes: Arc<SortedPlanes>,
     /// Whether the free-space cache is used.
@@ -124,7 +124,7 @@ impl World {
     /// # Errors
     /// A position, velocity or acceleration whose square is not finite, at the start or at the end of the tick; the ball stays as it
     /// was.
-    #[inline(always)] // A call would send the ball through memory, which costs as much as the rest.
+    #[inline(always)] // Keeps the ball in registers; passing it through memory costs as much as the rest.
     pub fn tick<O: Observer + ?Sized>(
         &self,
         state: &mut BallState,
