@@ -34,7 +34,7 @@
 //! - **World frame**: +z is up, so gravity is (0, 0, -9.81). An orientation `world_from_maze` turns maze coordinates into
 //!   world coordinates.
 //! - **Units**: a corridor (of the common widths the narrowest) is 1 maze unit wide; seconds; hence g = 9.81 units/s².
-//! - **Ball**: a circle in the maze plane, held on the floor. Gravity is projected onto the plane; dropping z is the model error of
+//! - **Ball**: a circle in the maze plane, held on the floor. Gravity is projected onto the plane; ignoring z is the model error of
 //!   the planar projection.
 //! - **Ranges**: everything is `f64` and must be finite; other numbers are refused.
 //!

@@ -46,7 +46,7 @@ pub struct Maze {
     pub openings: Vec<Plane>,
     /// Triangles to draw.
     pub surface: SurfaceMesh,
-    /// Of the walls.
+    /// Bounding box of the walls.
     pub bounds: Bounds,
     /// From the floor to the top of the walls as drawn (units); very high walls are lowered.
     pub wall_height: f64,

@@ -13,7 +13,7 @@ pub enum FaceReason {
     LooksDown,
     /// Fewer than three corners in different places, or all on one line.
     NoArea,
-    /// Not along an axis, and the walls are cut above or below it.
+    /// Not along an axis, and above or below the height at which the plan is sliced.
     OffAxisBeyondCut,
     /// Nearly along an axis.
     SnappedToAxis,
@@ -46,7 +46,7 @@ impl Display for FaceReason {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FaceNote {
-    /// Why, or how else.
+    /// Why they are ignored, or how they were changed.
     pub reason: FaceReason,
     /// How many.
     pub n_faces: usize,
@@ -75,14 +75,13 @@ pub struct ImportReport {
     pub ignored: Vec<FaceNote>,
     /// Faces that were used otherwise than they are, and how.
     pub adjusted: Vec<FaceNote>,
-    /// Wall coordinates nearer than this (units) were noise and became one.
+    /// Wall coordinates nearer than this (units) were merged.
     pub merged_within: Option<f64>,
     /// Walls of the file without thickness were made this thick (units).
     pub thickened_to: Option<f64>,
     /// Fraction of the plan, 0..=1, on which a face is missing in the file and the other sides decided what is wall.
     pub doubtful_fraction: f64,
-    /// The largest ball, in corridors and steps of 0.01 and with 0.01 to spare, for which a path leads from start to goal, where
-    /// there is none for the one that was asked for, or for the usual one. The maze is played with it unless another one was asked
-    /// for.
+    /// Where no path leads from start to goal for the requested ball, or for the usual one: the largest ball that has one, in
+    /// corridors and steps of 0.01, with 0.01 to spare. The maze is played with it unless another one was requested.
     pub passing_radius: Option<Radius>,
 }

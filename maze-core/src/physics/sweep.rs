@@ -19,9 +19,9 @@ const LEAST_SQUARED_SPEED: f64 = 1.0e-200;
 /// A circle that moves along a path for a time. All numbers are finite; the radius is greater than 0 and the time 0 or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepQuery {
-    /// Of the circle's centre.
+    /// The path of the circle's centre.
     pub(crate) path: Path,
-    /// Of the circle (units).
+    /// The circle's radius (units).
     pub(crate) radius: f64,
     /// From the start of the path (s).
     pub(crate) until_s: f64,
@@ -55,13 +55,13 @@ impl SweepQuery {
         Ok(Self { path, radius, until_s, left: None })
     }
 
-    /// The same query for a circle that has just left a point: to touch it at the very start is no impact.
+    /// The same query for a circle that has just left a point: to touch it at the very start does not count.
     #[must_use]
     pub fn after_leaving(self, point: Vector2<f64>) -> Self {
         Self { left: Some(point), ..self }
     }
 
-    /// Of the circle's centre.
+    /// The path of the circle's centre.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -424,7 +424,7 @@ pub(crate) fn search(
 
 /// The linear scan that [`first_impact`] is tested against: every plane of every group, in any order, O(n).
 ///
-/// Both cull corners alike. That culling loses no impact is tested against [`time_of_impact::face`] and [`time_of_impact::corner`].
+/// Search and scan cull corners alike. That culling loses no impact is tested against [`time_of_impact::face`] and [`time_of_impact::corner`].
 pub fn first_impact_scan(planes: &SortedPlanes, query: &SweepQuery) -> Option<Impact> {
     let mut search = Search::new(query);
     for candidate in Facing::ALL.into_iter().flat_map(|facing| planes.faces(facing)) {

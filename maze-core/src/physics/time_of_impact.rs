@@ -14,9 +14,9 @@ use nalgebra::Vector2;
 pub struct Path {
     /// Where it starts (units).
     pub position: Vector2<f64>,
-    /// At the start (units/s).
+    /// Velocity at the start (units/s).
     pub velocity: Vector2<f64>,
-    /// Throughout (units/s²).
+    /// Constant acceleration (units/s²).
     pub acceleration: Vector2<f64>,
 }
 
@@ -53,7 +53,7 @@ impl Path {
 pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
     let (axis, sign) = (plane.facing.axis(), plane.facing.sign());
     let gap = (path.position[axis] - plane.offset) * sign - radius;
-    // A ball set down exactly at its radius may read as a rounding inside.
+    // A ball placed exactly at its radius may appear to overlap by a rounding.
     let gap = if gap < 0.0 && -tolerance::touch(radius, path.position) < gap { 0.0 } else { gap };
     let (rise, acceleration) = (path.velocity[axis] * sign, path.acceleration[axis] * sign);
     let time_s = match falls_through_zero(gap, rise, acceleration) {
@@ -65,22 +65,22 @@ pub fn face(path: &Path, radius: f64, plane: &Plane) -> Option<f64> {
     };
     let (along, speed) = (path.at(time_s)[1 - axis], path.velocity_at(time_s)[1 - axis]);
     if plane.start <= along && along <= plane.end {
-        // Over the very end and moving outwards the circle touches the end point, which decides whether it is pressed.
+        // Over the very end and moving outwards the circle touches the end point: `corner` decides.
         let leaves = (along == plane.end && 0.0 < speed) || (along == plane.start && speed < 0.0);
         return (!leaves).then_some(time_s);
     }
-    // Beyond an end: a circle that grazes the corner comes over the face when it is a little below its level.
+    // Beyond an end: a circle that grazes the corner may come over the face when the circle is a little below the level of the face.
     let (outside, inward) =
         if along < plane.start { (plane.start - along, speed) } else { (along - plane.end, -speed) };
     let fall = -(path.velocity_at(time_s)[axis] * sign);
-    // Deeper than a touch by then, as usual.
+    // Usually it would be too deep to count by then.
     if inward <= 0.0 || tolerance::touch(radius, path.position) * inward < fall * outside {
         return None;
     }
     enters(path, radius, plane, time_s)
 }
 
-/// When a circle that rises from behind a face is at its highest, if it gets there as near as a touch: it has passed over the
+/// When a circle that rises from behind a face is at its highest, if it gets within the touch tolerance there: it has passed over the
 /// corner that it grazes.
 #[cold]
 #[inline(never)]
@@ -117,7 +117,7 @@ pub fn corner(path: &Path, radius: f64, point: Vector2<f64>, horizon_s: f64) -> 
     touches_point(path, radius, point, horizon_s, false)
 }
 
-/// [`corner`], for a circle that has just left the point if `has_left`: what is no deeper than a contact is at the start no touch.
+/// [`corner`], for a circle that has just left the point if `has_left`: an overlap no deeper than a contact is ignored at time 0.
 pub(crate) fn touches_point(
     path: &Path,
     radius: f64,

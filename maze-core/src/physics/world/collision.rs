@@ -4,10 +4,10 @@ use crate::physics::tolerance::{PASSING, TANGENT};
 use nalgebra::Vector2;
 
 /// Most reflections of one collision. A ball in the mouth of a wedge bounces between its two sides without a time between
-/// the bounces: without loss some π / angle times, and with loss it comes out sooner or not at all. After this many it stays.
+/// the bounces: without loss some π / angle times, and with loss fewer, or without end. After this many it is stopped.
 const MAX_REFLECTIONS: u32 = 4096;
 
-/// What is left of the speed (a fraction) when it has collapsed: far above where squares leave the range of floats.
+/// What is left of the speed (a fraction) when it has decayed to rest (inelastic collapse): far above where squares leave the range of floats.
 const COLLAPSED: f64 = 1.0e-40;
 
 /// One of the features that a collision takes place at.
@@ -15,7 +15,7 @@ const COLLAPSED: f64 = 1.0e-40;
 pub(super) struct Surface {
     /// From the feature to the centre.
     pub(super) normal: Vector2<f64>,
-    /// A rebound that is slower than this ends in rest (units/s); 0 where the acceleration does not press.
+    /// A rebound that is slower than this ends in rest (units/s); 0 where the acceleration does not push the ball onto this feature.
     pub(super) rest_speed: f64,
     /// Whether the ball was supported by it before.
     pub(super) is_active: bool,
@@ -69,7 +69,7 @@ pub(super) fn collide(
         }
         let rebound = restitution * approach[index];
         let is_plastic = rebound < surfaces[index].rest_speed;
-        // Two rests in turn are the collapse: what is left is driven into both surfaces.
+        // Two consecutive reflections without a rebound are the inelastic collapse: the ball is driven into both surfaces.
         let collapses = (is_plastic && was_plastic && slowest < approach[index])
             || (n_reflections != 0 && velocity.amax() <= least);
         if collapses || n_reflections == MAX_REFLECTIONS {
@@ -98,7 +98,7 @@ pub(super) fn jam(velocity: Vector2<f64>, hit: Vector2<f64>, support: Vector2<f6
     Outcome { velocity, rests_on: [false, rise <= slowest] }
 }
 
-/// Whether two normals are opposite but for what a graze may be off.
+/// Whether two normals are opposite, within [`PASSING`].
 pub(super) fn are_opposite(one: Vector2<f64>, two: Vector2<f64>) -> bool {
     one.dot(&two) < 0.0 && one.perp(&two).abs() < PASSING
 }
@@ -132,7 +132,7 @@ fn settled(velocity: Vector2<f64>, rounding: f64, surfaces: [&Surface; 2], rests
         if !are_parallel(surfaces) {
             return Outcome { velocity: Vector2::zeros(), rests_on };
         }
-        // Two features in one direction, as neighbours on a floor: the new one supports the ball.
+        // Two features in one direction, as neighbours on a floor: the one that is hit supports the ball, the other one is dropped.
         rests_on[1] = is_opposite;
     }
     let velocity = match rests_on {

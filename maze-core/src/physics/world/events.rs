@@ -15,13 +15,13 @@ use crate::physics::tolerance::{self, TANGENT};
 use crate::physics::wall::Feature;
 use nalgebra::Vector2;
 
-/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Real play has a handful. Bounces on a face with
+/// Most events in a tick (hits, ends of faces and arcs, lift-offs). Usual play has fewer than ten. Bounces on a face with
 /// restitution e end from speed v, when they are slower than the rest speed v_rest, after ln(v / v_rest) / ln(1/e) of them (docs/physics.md): for e = 0.99 that is always fewer than this, for e = 0.998
 /// from up to 0.33 units/s (radius 0.35, 4 units/s²). A ball that loses little may have more between near walls; the time that
 /// is left is dropped and reported.
 pub const MAX_EVENTS: u32 = 4096;
 
-/// The free-space cache is refreshed when a tick moves the ball less far than this (radii): a faster ball would soon leave it.
+/// The free-space cache is refreshed when a tick moves the ball less far than this (radii): a faster ball would soon leave the box.
 const WORTHWHILE: f64 = 0.25;
 
 /// Ticks until the cache is refreshed again where no free space was found: between walls without thickness, for example.
@@ -32,7 +32,7 @@ const RETRY_TICKS: u32 = 8;
 struct Recent {
     /// The last hit: where the ball was, and what it touched.
     hit: Option<(Vector2<f64>, Contact)>,
-    /// The point that the ball has just lifted off from, or passes.
+    /// The point that the ball has just lifted off from, or passes in a narrow gap (see `hit`).
     left: Option<Vector2<f64>>,
 }
 
@@ -345,7 +345,7 @@ impl<'a, O: Observer + ?Sized> Events<'a, O> {
         let BallState { ball, contacts, .. } = &mut *self.state;
         let Some(normal) = feature.normal_at(ball.position) else { return false };
         let (approach, speed) = (-ball.velocity.dot(&normal), ball.velocity.norm());
-        // A ball that does not move may be held by both, which a hit finds out.
+        // A ball that does not move may be held by both: `hit` decides that.
         let is_smooth = 0.0 < speed && approach <= TANGENT * speed && 0.0 < from.dot(&normal);
         if is_smooth {
             ball.position = feature.touching(ball.position, normal, radius);

@@ -21,7 +21,7 @@ const INSET: f64 = 1.0e-3;
 /// this limit the squares stay finite even at the end of the longest tick.
 const MAX_ACCELERATION: f64 = 1.0e140;
 
-/// A box in which the ball's centre touches nothing but its supports, and does not slide off them. A path that stays inside has no
+/// While the ball's centre is inside this box, the ball touches nothing but its supports, and does not slide off them. A path that stays inside has no
 /// impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct FreeSpace {

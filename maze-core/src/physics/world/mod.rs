@@ -28,7 +28,7 @@ pub(crate) fn check_tick_s(tick_s: f64) -> Result<f64, OutOfRange> {
     Err(OutOfRange { what: "the tick's length", expected: "seconds greater than 0, at most 1000" })
 }
 
-/// Everything that the motion of a ball depends on but the ball's own state: walls, radius and material, tick length.
+/// Everything that the motion of a ball depends on except the ball's own state: walls, radius and material, tick length.
 ///
 /// A world is immutable. Clones share the walls, so that one world serves a ball, its ghosts and a batch of a million balls; balls
 /// do not touch each other. The same inputs give the same bits on every platform, and a tick allocates nothing.

@@ -16,7 +16,7 @@ pub struct Contact {
     pub normal: Vector2<f64>,
 }
 
-/// At most two active contacts; with two, the ball is at rest. More than two are redundant in the plane. Of two opposite ones, in a
+/// At most two active contacts; with two, the ball is at rest. A third adds no constraint in the plane. Of two opposite ones, in a
 /// gap without play, only the pressed one is kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contacts([Option<Contact>; 2]); // Invariant: the second is `None` where the first is.
@@ -24,12 +24,12 @@ pub struct Contacts([Option<Contact>; 2]); // Invariant: the second is `None` wh
 /// A ball and its active contacts: all that the motion of the next tick depends on.
 ///
 /// It also remembers a free space around the ball, which saves searches and changes no motion. Two states are equal when balls and
-/// contacts are.
+/// contacts are, and both or neither were just placed.
 #[derive(Clone, Debug)]
 #[repr(C)] // What the usual tick needs comes first.
 pub struct BallState {
     pub(super) ball: Ball,
-    /// As found at the end of the last tick that was searched, for the contacts of then.
+    /// As found at the end of the last tick that was searched, valid for the contacts at that time.
     pub(super) free_space: Option<FreeSpace>,
     /// What it rests on, slides along or rolls around.
     pub(super) contacts: Contacts,
@@ -120,7 +120,7 @@ impl Contacts {
                 [false, false] => self.clear(),
             }
         }
-        // On the arc around a point the speed counts too.
+        // On the arc around a point it depends on the speed too: `roll` decides.
         let is_broken = |contact: &Contact| {
             matches!(contact.feature, Feature::Face(_)) && 0.0 <= acceleration.dot(&contact.normal)
         };
@@ -139,7 +139,7 @@ impl Contacts {
     }
 }
 
-/// Which of two touched features an acceleration presses a ball onto that is at rest.
+/// Onto which of two touched features an acceleration presses a ball at rest.
 ///
 /// With a = -(α n₁ + β n₂) it is held by both where α and β are 0 or more. Else the contact with the negative coefficient
 /// breaks, and along the other one the ball moves away from it, if it is pressed onto that one at all. Of opposite features, where
@@ -193,7 +193,7 @@ mod tests {
         let (one, two) = (contact(0.0, 1.0), contact(-1.0e-8, 1.0));
         assert_eq!(presses(Vector2::new(0.1, -1.0), one.normal, two.normal), [false, true]);
         assert_eq!(presses(Vector2::new(-0.1, -1.0), one.normal, two.normal), [true, false]);
-        // But into the pit between them.
+        // But straight between the normals onto both.
         assert_eq!(presses(Vector2::new(5.0e-9, -1.0), one.normal, two.normal), [true, true]);
         // Two at one place.
         let at_one_place = presses(Vector2::new(0.1, -1.0), one.normal, one.normal);
