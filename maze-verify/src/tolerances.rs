@@ -316,7 +316,7 @@ fn verdict(metric: &str, engines: &[Contender], limit: f64, reason: &str, checke
 
 /// Asks every tolerance.
 pub fn judge(scenes: &[SceneResult], model_error: Option<&ModelError>) -> Vec<Verdict> {
-    let mut verdicts: Vec<Verdict> = TOLERANCES.iter().map(|bar| bar.judge(scenes)).collect();
+    let mut verdicts: Vec<Verdict> = TOLERANCES.iter().map(|tolerance| tolerance.judge(scenes)).collect();
     if measures_rapier(scenes) {
         verdicts.push(first_bounces(scenes));
     }
@@ -330,7 +330,7 @@ struct OwnError {
     /// Of the velocity after, by the speed before: where nothing accelerations.
     of_speed: f64,
     /// Of the velocity after, by what the acceleration gives while the bounce may happen: off faces.
-    of_pull: f64,
+    of_acceleration: f64,
 }
 
 /// One first bounce in this many may be another one than ours.
@@ -339,9 +339,9 @@ const UNTOLD: usize = 100;
 /// rapier's contacts begin this far before the touch (units).
 const RAPIER_MARGIN: f64 = 0.02;
 
-/// What the acceleration gives (units/s) within a tick, and on the way through rapier's margin: when within these a bounce happens is
+/// What the acceleration gives (units/s) within a tick, and while it passes through rapier's margin: when within these a bounce happens is
 /// not rapier's to tell.
-fn pull_gain(bounce: FirstBounce, tick_s: f64) -> f64 {
+fn acceleration_gain(bounce: FirstBounce, tick_s: f64) -> f64 {
     let [incoming, outgoing] = [bounce.velocity_in, bounce.velocity_out].map(nalgebra::Vector2::from);
     let approach = (outgoing - incoming).try_normalize(0.0).map_or(0.0, |normal| -incoming.dot(&normal));
     if approach <= 0.0 {
@@ -365,19 +365,23 @@ impl OwnError {
             true => matches!(family, Corner | Graze),
             false => is_face(family),
         };
-        let without_pull = runs(&is_alike).into_iter().filter(|(first, _)| first.acceleration == 0.0);
-        let with_pull = runs(&is_face).into_iter().filter(|(first, _)| first.acceleration != 0.0);
+        let without_acceleration = runs(&is_alike).into_iter().filter(|(first, _)| first.acceleration == 0.0);
+        let with_acceleration = runs(&is_face).into_iter().filter(|(first, _)| first.acceleration != 0.0);
         let speed = |[x, y]: [f64; 2]| x.hypot(y);
         Self {
-            of_speed: without_pull.map(|(first, off)| off / speed(first.velocity_in)).fold(0.0, f64::max),
-            of_pull: with_pull.map(|(first, off)| off / pull_gain(first, tick_s)).fold(0.0, f64::max),
+            of_speed: without_acceleration
+                .map(|(first, off)| off / speed(first.velocity_in))
+                .fold(0.0, f64::max),
+            of_acceleration: with_acceleration
+                .map(|(first, off)| off / acceleration_gain(first, tick_s))
+                .fold(0.0, f64::max),
         }
     }
 
     /// For one bounce (units/s); 0 where there was nothing to measure.
     fn at(&self, bounce: FirstBounce, tick_s: f64) -> f64 {
         let [x, y] = bounce.velocity_in;
-        self.of_speed * x.hypot(y) + self.of_pull * pull_gain(bounce, tick_s)
+        self.of_speed * x.hypot(y) + self.of_acceleration * acceleration_gain(bounce, tick_s)
     }
 }
 

@@ -1,4 +1,4 @@
-//! What was found in a file, changed and left out on the way to a maze.
+//! What was found in a file, changed and left out.
 
 use crate::assembly::polygons::UpAxis;
 use crate::physics::ball::Radius;
@@ -58,7 +58,7 @@ pub struct FaceNote {
     pub is_unmet: bool,
 }
 
-/// What was found in a file on the way to a maze; for a generated maze it holds the defaults.
+/// What was found in the file of a maze, changed and left out; for a generated maze it holds the defaults.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ImportReport {

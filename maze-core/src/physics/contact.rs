@@ -1,7 +1,8 @@
 //! Closest point, penetration, push-out and reflection: steps 1 to 4 of the report's collision computation.
 
 use crate::physics::ball::{Ball, BallSpec};
-use crate::physics::sorted_planes::is_within;
+use crate::physics::sorted_planes::{SortedPlanes, is_within};
+use crate::physics::tolerance;
 use crate::physics::wall::Plane;
 use nalgebra::Vector2;
 
@@ -46,6 +47,16 @@ pub fn find(centre: Vector2<f64>, radius: f64, plane: &Plane) -> Option<Contact>
         let distance = from_closest.norm();
         Contact { plane: *plane, closest, distance, penetration: radius - distance }
     })
+}
+
+/// Of the planes that a circle overlaps by more than a touch, the one that is overlapped most deeply.
+pub(crate) fn deepest(planes: &SortedPlanes, centre: Vector2<f64>, radius: f64) -> Option<Contact> {
+    let touch = tolerance::touch(radius, centre);
+    planes
+        .planes_within(centre, radius)
+        .filter_map(|plane| find(centre, radius, &plane))
+        .filter(|contact| touch < contact.penetration)
+        .max_by(|a, b| a.penetration.total_cmp(&b.penetration))
 }
 
 impl Contact {

@@ -6,7 +6,7 @@
 use crate::physics::ball::OutOfRange;
 use crate::physics::contact;
 use crate::physics::numbers::{greater, lesser};
-use crate::physics::sorted_planes::{Face, SortedPlanes, WIDENED};
+use crate::physics::sorted_planes::{Face, LEAST_REACH, SortedPlanes, WIDENED};
 use crate::physics::time_of_impact::{self, Path};
 use crate::physics::tolerance;
 use crate::physics::wall::{Facing, Feature, Plane};
@@ -129,8 +129,8 @@ impl SortedPlanes {
     ///
     /// O(log n) for each row that the circle passes until the impact.
     pub fn sweep(&self, query: &SweepQuery) -> Sweep {
-        if let Some((wall, depth)) = self.deepest_overlap(query.path.position, query.radius) {
-            return Sweep::Overlaps { wall, depth };
+        if let Some(contact) = contact::deepest(self, query.path.position, query.radius) {
+            return Sweep::Overlaps { wall: contact.plane, depth: contact.penetration };
         }
         let Some(impact) = first_impact(self, query) else { return Sweep::Free };
         let Impact { time_s, feature } = impact;
@@ -148,22 +148,12 @@ impl SortedPlanes {
         }
     }
 
-    /// The face that a circle overlaps most deeply, by more than a touch, and by how much (units).
-    fn deepest_overlap(&self, centre: Vector2<f64>, radius: f64) -> Option<(Plane, f64)> {
-        let touch = tolerance::touch(radius, centre);
-        self.planes_within(centre, radius)
-            .filter_map(|plane| contact::find(centre, radius, &plane))
-            .filter(|contact| touch < contact.penetration)
-            .max_by(|a, b| a.penetration.total_cmp(&b.penetration))
-            .map(|contact| (contact.plane, contact.penetration))
-    }
-
     /// The first plane, in the order of facings, that has an end there.
     fn plane_that_ends_in(&self, point: Vector2<f64>) -> Option<Plane> {
         let ends_in = |plane: &Plane| {
             [plane.start, plane.end].into_iter().any(|along| plane.facing.point(plane.offset, along) == point)
         };
-        self.planes_within(point, f64::MIN_POSITIVE.sqrt()).find(ends_in)
+        self.planes_within(point, LEAST_REACH).find(ends_in)
     }
 }
 

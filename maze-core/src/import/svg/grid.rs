@@ -3,8 +3,7 @@
 use super::drawing::{Chain, Source};
 use super::{SvgError, SvgMaze};
 use crate::layout::{Door, Layout, Side};
-use crate::physics::numbers::to_f64;
-use crate::physics::numbers::{greater, lesser};
+use crate::physics::numbers::{greater, lesser, to_f64};
 
 /// How far from a grid line, in cells, a wall may lie: drawings are rounded, to a tenth of a unit in cells of 16 or so.
 const OFF_GRID: f64 = 0.03;

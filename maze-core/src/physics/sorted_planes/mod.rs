@@ -12,6 +12,9 @@ use nalgebra::Vector2;
 pub use nearby::Clearance;
 use std::ops::Range;
 
+/// The least reach (units) of a search: its square is not 0.
+pub(crate) const LEAST_REACH: f64 = 1.5e-154;
+
 /// Searches reach this much farther than asked, so that no rounding (1e-12 on the largest boards) hides a plane.
 pub(crate) const WIDENED: f64 = 1.0 + 1.0e-6;
 

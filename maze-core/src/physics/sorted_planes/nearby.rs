@@ -1,6 +1,6 @@
 //! What is near a point, whichever way it moves.
 
-use super::{Face, SortedPlanes, WIDENED, is_within};
+use super::{Face, LEAST_REACH, SortedPlanes, WIDENED, is_within};
 use crate::physics::wall::{Facing, Plane};
 use nalgebra::Vector2;
 use std::cmp::Ordering;
@@ -135,20 +135,16 @@ impl SortedPlanes {
     pub fn is_inside_wall(&self, point: Vector2<f64>) -> bool {
         let Some(Clearance { plane: nearest, distance }) = self.clearance(point) else { return false };
         // Widened against rounding, and for a point on a face; equally near faces have the same squares, to the bit.
-        let reach = distance * WIDENED + f64::MIN_POSITIVE.sqrt();
+        let reach = distance * WIDENED + LEAST_REACH;
         let least = squared_distance(&nearest, point);
         let is_beyond_an_end = |plane: &Plane| 0.0 < plane.gap(point[1 - plane.facing.axis()]);
         let is_in_front =
             |plane: &Plane| 0.0 <= (point[plane.facing.axis()] - plane.offset) * plane.facing.sign();
         // The nearest one is named too: squares of great distances are infinite, and then nothing is within reach.
-        let candidates = || {
-            let near = self.planes_within(point, reach);
-            near.chain([nearest]).filter(|plane| squared_distance(plane, point) == least)
-        };
-        if candidates().all(|plane| is_beyond_an_end(&plane)) {
-            return !candidates().any(|plane| is_in_front(&plane));
-        }
-        !candidates().any(|plane| !is_beyond_an_end(&plane) && is_in_front(&plane))
+        let near = self.planes_within(point, reach).chain([nearest]);
+        let equally_near: Vec<Plane> = near.filter(|plane| squared_distance(plane, point) == least).collect();
+        let ends_decide = equally_near.iter().all(is_beyond_an_end);
+        !equally_near.iter().any(|plane| is_in_front(plane) && (ends_decide || !is_beyond_an_end(plane)))
     }
 
     /// The plain O(n) truth that [`SortedPlanes::clearance`] is tested against.

@@ -18,15 +18,7 @@ impl<O: Observer + ?Sized> Events<'_, O> {
         let mut deepest_of_all = 0.0;
         for _ in 0..MAX_PUSH_OUTS {
             let centre = self.state.ball.position;
-            let touch = tolerance::touch(radius, centre);
-            let deepest = self
-                .world
-                .planes
-                .planes_within(centre, radius)
-                .filter_map(|plane| contact::find(centre, radius, &plane))
-                .filter(|contact| touch < contact.penetration)
-                .max_by(|a, b| a.penetration.total_cmp(&b.penetration));
-            let Some(contact) = deepest else { break };
+            let Some(contact) = contact::deepest(&self.world.planes, centre, radius) else { break };
             let facing = contact.plane.facing;
             let front = (centre[facing.axis()] - contact.plane.offset) * facing.sign();
             // In front, away from the closest point; behind, through the face.
