@@ -1,7 +1,7 @@
 //! The autopilot at the board, round after round.
 
 use crate::failure::Failure;
-use crate::game::Game;
+use crate::session::Session;
 use maze_core::{Autopilot, Phase, Tilt};
 
 /// How long the goal is admired before the next round (ticks of 0.03 s).
@@ -15,14 +15,14 @@ pub(crate) struct Demo {
 
 impl Demo {
     /// Fails for a maze with no path to the goal.
-    pub(crate) fn new(game: &Game, max_tilt_rad: f64) -> Result<Self, Failure> {
+    pub(crate) fn new(game: &Session, max_tilt_rad: f64) -> Result<Self, Failure> {
         let half_tangent_limit = (max_tilt_rad / 2.0).tan();
         let autopilot = Autopilot::new(game.maze(), half_tangent_limit).map_err(Failure::not_held)?;
         Ok(Self { autopilot, half_tangent_limit, n_ticks_at_goal: 0 })
     }
 
     /// For the next tick; starts another round some time after the goal.
-    pub(crate) fn tilt(&mut self, game: &mut Game) -> Result<Tilt, Failure> {
+    pub(crate) fn tilt(&mut self, game: &mut Session) -> Result<Tilt, Failure> {
         if game.phase() == Phase::Finished {
             self.n_ticks_at_goal += 1;
             if self.n_ticks_at_goal < TICKS_AT_GOAL {

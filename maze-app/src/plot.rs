@@ -1,8 +1,8 @@
 //! The frame log as a picture: frames a second and the processor's share over time.
 
 use crate::failure::Failure;
-use crate::files;
 use crate::frame_log::{FrameLog, Rate};
+use crate::platform::native::files;
 use image::RgbImage;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingAreaErrorKind;

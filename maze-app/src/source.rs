@@ -1,12 +1,14 @@
 //! Where a maze comes from: a file, a level, or a seed.
 
 use crate::failure::Failure;
-use crate::files::Input;
 use crate::levels::{self, Level, N_LEVELS};
 use crate::loaded::Loaded;
-use crate::maze_file::{self, Hints};
+use crate::platform::native::files::Input;
+use crate::platform::native::maze_file::{self, Hints};
+use crate::platform::native::sidecar::{
+    Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name,
+};
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
-use crate::sidecar::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name};
 use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
@@ -222,7 +224,7 @@ impl Source {
         }
     }
 
-    /// The files that it is read from, for [`crate::files::expect_outputs`].
+    /// The files that it is read from, for [`crate::platform::native::files::expect_outputs`].
     pub(crate) fn inputs(&self) -> Vec<Input> {
         let beside = self.file().map(|maze| ("what stands beside the maze", maze.with_extension("toml")));
         self.file().map(|maze| ("the maze", maze.to_path_buf())).into_iter().chain(beside).collect()

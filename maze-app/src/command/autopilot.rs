@@ -3,9 +3,9 @@
 use crate::command::info::no_path;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
-use crate::files;
-use crate::game::Game;
-use crate::keeper::Keeper;
+use crate::platform::native::files;
+use crate::platform::native::keeper::Keeper;
+use crate::session::Session;
 use crate::setup::USUAL_MAX_TILT_DEGREES;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         files::expect_outputs(&[("--record", path)], &source.inputs())?;
         source.expect_recordable()?;
     }
-    let mut game = Game::new(source.load()?, arguments.engine)?;
+    let mut game = Session::new(source.load()?, arguments.engine)?;
     let mut kept = arguments.record.as_deref().map(|path| Keeper::new(path, &game, &source)).transpose()?;
     let half_tangent_limit = (USUAL_MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Ok(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     drop(kept);
     let (finished, n_ticks) = (game.phase() == Phase::Finished, game.n_played());
     if let Some(path) = &arguments.record {
-        files::write_whole(path, &game.recording(&source)?.to_bytes())?;
+        files::write_whole(path, &game.recording(source.words()?)?.to_bytes())?;
     }
     files::print(&match arguments.json {
         true => format!(

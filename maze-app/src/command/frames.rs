@@ -1,22 +1,22 @@
 //! `maze-app frames`: how fast frames come, and what they cost.
 
-use crate::app::{self, App, Options};
 use crate::clock::Clock;
 use crate::demo::Demo;
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
-use crate::files;
 use crate::frame::FramePainter;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
-use crate::game::Game;
 use crate::input::Keyboard;
-use crate::keeper::KeptFrames;
 use crate::numbers::to_f32;
 use crate::numbers::to_points;
 use crate::overlay::{Layers, Notes};
+use crate::platform::native::files;
+use crate::platform::native::keeper::KeptFrames;
+use crate::platform::native::{self, App, Options};
 use crate::plot;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
+use crate::session::Session;
 use crate::setup::{Setup, USUAL_MAX_TILT_DEGREES, parse_seconds};
 use crate::source::{ReadArguments, Source};
 use crate::ui::{Hud, Labels};
@@ -167,7 +167,7 @@ fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Fail
         unfocused: None,
         quality: arguments.quality,
     };
-    let event_loop = app::event_loop()?;
+    let event_loop = native::event_loop()?;
     if arguments.size.iter().any(|side| EVERY_ADAPTER < *side) {
         // A window of a size that no adapter can draw is not opened.
         expect_size(arguments.size, &Gpu::offscreen().map_err(Failure::bad_input)?)?;
@@ -191,9 +191,9 @@ fn expect_size(size: [u32; 2], gpu: &Gpu) -> Result<(), Failure> {
 }
 
 fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failure> {
-    app::leave_silent();
+    native::leave_silent();
     let source = source(arguments);
-    let mut game = Game::new(source.load()?, EngineKind::Continuous)?;
+    let mut game = Session::new(source.load()?, EngineKind::Continuous)?;
     let max_tilt_rad = USUAL_MAX_TILT_DEGREES.to_radians();
     let mut demo = Demo::new(&game, max_tilt_rad)?;
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;

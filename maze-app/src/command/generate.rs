@@ -1,8 +1,9 @@
 //! `maze-app generate`: a random maze as a file.
 
 use crate::failure::Failure;
+use crate::measures;
+use crate::platform::native::{files, maze_file};
 use crate::recipe::{self, RecipeArguments};
-use crate::{files, maze_file, measures};
 use clap::Args;
 use maze_core::{AssembleOptions, printable};
 use std::path::PathBuf;

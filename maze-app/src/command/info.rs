@@ -1,9 +1,9 @@
 //! `maze-app info`: what was found in a maze file.
 
 use crate::failure::Failure;
-use crate::files;
 use crate::loaded::Loaded;
 use crate::measures;
+use crate::platform::native::files;
 use crate::source::{KnownMazeArguments, Source};
 use clap::Args;
 use maze_core::{BallSpec, FaceNote, Facing, Maze, Plane, Radius};

@@ -1,12 +1,12 @@
 //! `maze-app play`: the game in a window.
 
-use crate::app::{self, App, Options};
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
-use crate::files;
+use crate::platform::native::files;
+use crate::platform::native::sidecar;
+use crate::platform::native::{self, App, Options};
 use crate::quality::QualityChoice;
 use crate::setup::{self, Setup, USUAL_MAX_TILT_DEGREES, Unfocused};
-use crate::sidecar;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use std::path::PathBuf;
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     }
     let maze = source.load()?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
-    let event_loop = app::event_loop()?;
+    let event_loop = native::event_loop()?;
     let max_tilt_rad = arguments.max_tilt.to_radians();
     let setup = Setup {
         source,

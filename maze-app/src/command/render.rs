@@ -1,20 +1,20 @@
 //! `maze-app render`: one picture, no window.
 
-use crate::app;
-use crate::app::view::{self, ZOOM_RANGE, zoomed};
 use crate::engine_kind::EngineKind;
 use crate::failure::{self, Failure};
-use crate::files;
-use crate::game::Game;
 use crate::numbers::to_f32;
 use crate::numbers::to_points;
 use crate::overlay::{self, Layers};
+use crate::platform::native;
+use crate::platform::native::files;
+use crate::platform::native::sidecar;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
+use crate::session::Session;
 use crate::setup::{STEEPEST_DEGREES, parse_max_tilt};
-use crate::sidecar;
 use crate::source::{KnownMazeArguments, Source};
 use crate::ui;
+use crate::view::{self, ZOOM_RANGE, zoomed};
 use clap::Args;
 use maze_core::Tilt;
 use maze_render::{Gpu, Renderer};
@@ -91,13 +91,13 @@ fn parse_tilt(text: &str) -> Result<Tilt, String> {
 
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     files::expect_extension(&arguments.out, "png")?;
-    app::leave_silent();
+    native::leave_silent();
     let source = Source::known(&arguments.maze)?;
     let mut inputs = source.inputs();
     inputs.extend(arguments.textures.as_deref().map(files::texture_files).into_iter().flatten());
     files::expect_outputs(&[("--out", &arguments.out)], &inputs)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
-    let mut game = Game::new(source.load()?, arguments.engine)?;
+    let mut game = Session::new(source.load()?, arguments.engine)?;
     game.set_ghost(arguments.ghost)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;

@@ -2,7 +2,7 @@
 
 use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
-use crate::files;
+use crate::platform::native::files;
 use crate::source::{MazeArguments, Source};
 use clap::{Args, Parser, ValueEnum};
 use maze_core::Ball;

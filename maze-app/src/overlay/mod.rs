@@ -3,9 +3,9 @@
 mod pen;
 mod table;
 
-use crate::game::Game;
 use crate::numbers::to_f32;
 use crate::numbers::to_points;
+use crate::session::Session;
 use maze_core::trace::{self, GroupVisit, SearchTrace};
 use maze_core::{Facing, Hit, Path, Plane, SweepQuery, contact, gravity};
 use maze_render::Scene;
@@ -135,7 +135,7 @@ pub(crate) struct Notes {
 }
 
 /// Adds the layers' lines and patches to a scene of the game, `size` pixels large, and returns the text to write.
-pub(crate) fn add(layers: Layers, game: &Game, scene: &mut Scene, size: [u32; 2]) -> Notes {
+pub(crate) fn add(layers: Layers, game: &Session, scene: &mut Scene, size: [u32; 2]) -> Notes {
     if layers == Layers::default() {
         return Notes::default();
     }
@@ -168,7 +168,7 @@ fn colour_of(facing: Facing) -> Colour {
 }
 
 struct Drawing<'a> {
-    game: &'a Game,
+    game: &'a Session,
     scene: &'a Scene,
     size: [u32; 2],
     /// The ball's centre as drawn, which is up to a tick behind the engine's.
@@ -182,7 +182,7 @@ struct Drawing<'a> {
 }
 
 impl<'a> Drawing<'a> {
-    fn new(game: &'a Game, scene: &'a Scene, size: [u32; 2]) -> Self {
+    fn new(game: &'a Session, scene: &'a Scene, size: [u32; 2]) -> Self {
         let world_from_maze = scene.world_from_maze;
         let eye = world_from_maze.inverse_transform_point(&scene.camera.eye());
         let [x, y, _] = scene.ball.position.map(f64::from);
@@ -441,17 +441,17 @@ mod tests {
         assert!(Layers::parse("").is_err());
     }
 
-    fn game(engine: EngineKind) -> Game {
+    fn game(engine: EngineKind) -> Session {
         let mesh = extrude::extrude(&layout::recursive_backtracker(6, 5, 11).unwrap());
         let mut game =
-            Game::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap(), engine).unwrap();
+            Session::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap(), engine).unwrap();
         for _ in 0..200 {
             game.tick(Tilt::from_half_tangents(0.06, 0.05)).unwrap();
         }
         game
     }
 
-    fn shown(game: &Game, layers: &str) -> (Scene, Notes) {
+    fn shown(game: &Session, layers: &str) -> (Scene, Notes) {
         let camera = Camera { target: [0.0; 3], distance: 20.0 };
         let mut scene = game.scene(&game.pose(1.0, None), camera);
         let layers = if layers.is_empty() { Layers::default() } else { Layers::parse(layers).unwrap() };

@@ -3,9 +3,9 @@
 use super::App;
 use crate::clock;
 use crate::failure::Failure;
-use crate::files;
 use crate::input::{Action, Control};
-use crate::sidecar;
+use crate::platform::native::files;
+use crate::platform::native::sidecar;
 use crate::source::Source;
 use maze_render::{Quality, TextureSet};
 use std::path::Path;
@@ -101,8 +101,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::Options;
     use crate::engine_kind::EngineKind;
+    use crate::platform::native::Options;
     use crate::quality::QualityChoice;
     use crate::setup::Setup;
     use crate::source::MazeArguments;

@@ -1,7 +1,7 @@
 //! Files in and out; an output is whole or not there.
 
 use crate::failure::Failure;
-use crate::rescue;
+use crate::platform::native::rescue;
 use image::{DynamicImage, ImageFormat};
 use maze_render::{TextureSet, decode_texture};
 use std::fs;
@@ -274,9 +274,9 @@ pub(crate) fn textures(directory: Option<&Path>) -> Result<TextureSet, Failure> 
         decode_texture(&shown, &bytes).map_err(Failure::bad_input)
     };
     Ok(TextureSet {
-        wall: load("wall.bmp", include_bytes!("../../assets/textures/wall.bmp"))?,
-        floor: load("floor.bmp", include_bytes!("../../assets/textures/floor.bmp"))?,
-        top: load("top.bmp", include_bytes!("../../assets/textures/top.bmp"))?,
+        wall: load("wall.bmp", include_bytes!("../../../../assets/textures/wall.bmp"))?,
+        floor: load("floor.bmp", include_bytes!("../../../../assets/textures/floor.bmp"))?,
+        top: load("top.bmp", include_bytes!("../../../../assets/textures/top.bmp"))?,
     })
 }
 

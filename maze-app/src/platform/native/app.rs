@@ -1,42 +1,31 @@
 //! The window: events in, frames out; nothing else.
 
-mod display;
-mod graphics;
-mod idle;
-mod keys;
-mod layout;
-mod picture;
-mod presence;
-pub(crate) mod view;
-mod watch;
-
-pub(crate) use display::{event_loop, leave_silent};
-
+use super::graphics::{Drawn, Graphics};
+use super::idle::Idle;
+use super::presence::Presence;
+use super::watch::Watch;
+use super::{display, layout};
 use crate::clock::Clock;
 use crate::demo::Demo;
 use crate::failure::Failure;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
-use crate::game::Game;
 use crate::input::{Action, Keyboard, TiltControl};
-use crate::keeper::{Keeper, KeptFrames};
 use crate::numbers::to_f32;
 use crate::overlay::{self, Layers, Notes};
+use crate::platform::native::keeper::{Keeper, KeptFrames};
+use crate::platform::native::rescue::{self, OpenWindow};
+use crate::platform::native::state_log::{State, StateLog};
 use crate::quality::QualityChoice;
-use crate::rescue::{self, OpenWindow};
+use crate::session::Session;
 use crate::setup::{Setup, Unfocused};
 use crate::slowness::Slowness;
 use crate::source::Source;
-use crate::state_log::{State, StateLog};
 use crate::ui::{self, FramesPanel, Hud, Labels};
-use graphics::{Drawn, Graphics};
-use idle::Idle;
+use crate::view::{self, View};
 use maze_core::{Event, Maze, Phase};
 use maze_render::{Quality, TextureSet};
-use presence::Presence;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use view::View;
-use watch::Watch;
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalPosition;
 use winit::event::{ElementState, MouseButton, MouseScrollDelta, StartCause, WindowEvent};
@@ -76,56 +65,56 @@ impl Default for Options {
 
 /// Everything that lives as long as the window.
 pub(crate) struct App {
-    game: Game,
-    clock: Clock,
-    keyboard: Keyboard,
-    control: TiltControl,
-    presence: Presence,
-    view: View,
-    source: Source,
-    labels: Labels,
-    textures: TextureSet,
+    pub(super) game: Session,
+    pub(super) clock: Clock,
+    pub(super) keyboard: Keyboard,
+    pub(super) control: TiltControl,
+    pub(super) presence: Presence,
+    pub(super) view: View,
+    pub(super) source: Source,
+    pub(super) labels: Labels,
+    pub(super) textures: TextureSet,
     /// Where they come from whatever the maze.
-    textures_flag: Option<PathBuf>,
+    pub(super) textures_flag: Option<PathBuf>,
     /// Where to write it; opened with the window, so that nothing is lost when there is none.
-    state_log_path: Option<PathBuf>,
-    state_log: Option<StateLog>,
+    pub(super) state_log_path: Option<PathBuf>,
+    pub(super) state_log: Option<StateLog>,
     /// Keeps the run to be written; nothing any more when one that reached the goal stands there.
-    keeper: Option<Keeper>,
-    exit_after: Option<Duration>,
-    quality: QualityChoice,
-    options: Options,
+    pub(super) keeper: Option<Keeper>,
+    pub(super) exit_after: Option<Duration>,
+    pub(super) quality: QualityChoice,
+    pub(super) options: Options,
     /// Plays in the player's place.
-    demo: Option<Demo>,
-    graphics: Option<Graphics>,
+    pub(super) demo: Option<Demo>,
+    pub(super) graphics: Option<Graphics>,
     /// Who drew the last frame: adapter, quality, size.
-    drawn_by: Option<(String, Quality, [u32; 2])>,
-    frame_log: FrameLog,
+    pub(super) drawn_by: Option<(String, Quality, [u32; 2])>,
+    pub(super) frame_log: FrameLog,
     /// The frames once more, to be written when the program is ended from outside.
-    kept_frames: Option<KeptFrames>,
-    shows_frames: bool,
-    slowness: Slowness,
+    pub(super) kept_frames: Option<KeptFrames>,
+    pub(super) shows_frames: bool,
+    pub(super) slowness: Slowness,
     /// Whether the quality was chosen by the user, and stays.
-    quality_is_chosen: bool,
-    idle: Idle,
+    pub(super) quality_is_chosen: bool,
+    pub(super) idle: Idle,
     /// Where it was last, if anywhere.
-    cursor: Option<PhysicalPosition<f64>>,
-    help: bool,
-    layers: Layers,
+    pub(super) cursor: Option<PhysicalPosition<f64>>,
+    pub(super) help: bool,
+    pub(super) layers: Layers,
     /// News of a moment, such as why a dropped file was not loaded, and when.
-    notice: Option<(String, Instant)>,
-    n_ticks: u64,
-    max_tilt_rad: f32,
-    opened: Instant,
-    first_frame: Option<Instant>,
-    last_frame: Instant,
-    next_frame: Instant,
-    failure: Option<Failure>,
+    pub(super) notice: Option<(String, Instant)>,
+    pub(super) n_ticks: u64,
+    pub(super) max_tilt_rad: f32,
+    pub(super) opened: Instant,
+    pub(super) first_frame: Option<Instant>,
+    pub(super) last_frame: Instant,
+    pub(super) next_frame: Instant,
+    pub(super) failure: Option<Failure>,
 }
 
 impl App {
     pub(crate) fn new(setup: Setup, options: Options, maze: Maze) -> Result<Self, Failure> {
-        let game = Game::new(maze, setup.engine)?;
+        let game = Session::new(maze, setup.engine)?;
         let demo = options.demo.then(|| Demo::new(&game, setup.max_tilt_rad)).transpose()?;
         // What ends by itself, or plays by itself, does not wait for the player unless a flag asks for it.
         let waits = demo.is_none() && setup.exit_after.is_none();
@@ -215,7 +204,7 @@ impl App {
         event_loop.exit();
     }
 
-    fn load_into_graphics(&mut self) -> Result<(), Failure> {
+    pub(super) fn load_into_graphics(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
         graphics.set_maze(self.game.maze(), &format!("Maze  {}", ui::window_title(&self.source.title())))
     }
@@ -236,7 +225,7 @@ impl App {
         Ok(())
     }
 
-    fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) -> Result<(), Failure> {
+    pub(super) fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) -> Result<(), Failure> {
         match action {
             Action::ZoomIn => self.view.zoom_by_notches(1.0),
             Action::ZoomOut => self.view.zoom_by_notches(-1.0),
@@ -277,7 +266,7 @@ impl App {
     }
 
     /// Loads the source's maze when it has changed.
-    fn load(&mut self, changed: bool) -> Result<(), Failure> {
+    pub(super) fn load(&mut self, changed: bool) -> Result<(), Failure> {
         if changed {
             self.game = self.game.on(self.source.load()?)?;
             self.cover_with(self.textures_of(&self.source)?);
@@ -303,7 +292,7 @@ impl App {
     }
 
     /// Plays a file dropped on the window. One that is no maze is reported, and the game continues.
-    fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
+    pub(super) fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
         let source = self.source.of_file(path);
         let game = source.load().and_then(|maze| self.game.on(maze));
         match game.and_then(|game| Ok((game, self.textures_of(&source)?))) {

@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::loaded::Loaded;
-use crate::progress::Progress;
-use crate::{files, picture};
+use crate::picture;
+use crate::platform::native::files;
+use crate::platform::native::progress::Progress;
 use maze_core::import::picture::WallTone;
 use maze_core::import::text::TextOptions;
 use maze_core::{AssembleOptions, Layout, MAX_GRID_CELLS, Maze, Stage, export, extrude, import};

@@ -33,7 +33,7 @@ pub(crate) fn beside(camera: Camera, aspect: f32, covered: f32) -> Camera {
 }
 
 /// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
-pub(super) fn with_room_below(camera: Camera, fraction: f32) -> Camera {
+pub(crate) fn with_room_below(camera: Camera, fraction: f32) -> Camera {
     let distance = camera.distance / (1.0 - fraction);
     let down = fraction * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
     let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
@@ -49,7 +49,7 @@ pub(crate) fn zoomed(whole: Camera, zoom: f64, ball: Vector3<f32>) -> Camera {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(crate) struct View {
     wanted_zoom: f64,
     zoom: f64,
     camera: Camera,
@@ -62,23 +62,23 @@ impl Default for View {
 }
 
 impl View {
-    pub(super) fn zoom_by_notches(&mut self, notches: f64) {
+    pub(crate) fn zoom_by_notches(&mut self, notches: f64) {
         let zoom = self.wanted_zoom * ZOOM_PER_NOTCH.powf(notches);
         self.wanted_zoom = zoom.clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
     }
 
     /// Back to the whole maze.
-    pub(super) fn show_all(&mut self) {
+    pub(crate) fn show_all(&mut self) {
         self.wanted_zoom = 1.0;
         self.zoom = 1.0;
     }
 
-    pub(super) fn camera(&self) -> Camera {
+    pub(crate) fn camera(&self) -> Camera {
         self.camera
     }
 
     /// Moves towards what is wanted: `whole` shows the whole maze, `ball` is where the ball is in the world.
-    pub(super) fn update(&mut self, elapsed: Duration, whole: Camera, ball: Vector3<f32>) {
+    pub(crate) fn update(&mut self, elapsed: Duration, whole: Camera, ball: Vector3<f32>) {
         let left = (-elapsed.as_secs_f64() / SETTLE_S).exp();
         self.zoom = self.wanted_zoom + (self.zoom - self.wanted_zoom) * left;
         self.camera = zoomed(whole, self.zoom, ball);

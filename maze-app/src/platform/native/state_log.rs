@@ -1,7 +1,7 @@
 //! One JSON line a tick, for tests and for the curious.
 
 use crate::failure::Failure;
-use crate::files::{self, plain};
+use crate::platform::native::files::{self, plain};
 use serde::Serialize;
 use std::fs::File;
 use std::io::Write;

@@ -5,7 +5,7 @@ mod text;
 pub(crate) use text::{Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name};
 
 use crate::failure::Failure;
-use crate::files;
+use crate::platform::native::files;
 use maze_render::TextureSet;
 use std::path::Path;
 

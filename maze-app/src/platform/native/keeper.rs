@@ -1,10 +1,10 @@
 //! A run and its frames that are kept while it is played, so that they are saved when the program is ended from outside.
 
 use crate::failure::Failure;
-use crate::files;
 use crate::frame_log::FrameLog;
-use crate::game::Game;
-use crate::rescue::{self, Kept, Shared, lock};
+use crate::platform::native::files;
+use crate::platform::native::rescue::{self, Kept, Shared, lock};
+use crate::session::Session;
 use crate::source::Source;
 use maze_core::replay::Recording;
 use std::path::{Path, PathBuf};
@@ -19,21 +19,21 @@ pub(crate) struct Keeper {
 
 impl Keeper {
     /// Of a game that begins; written to that file when it has to be.
-    pub(crate) fn new(path: &Path, game: &Game, source: &Source) -> Result<Self, Failure> {
-        let recording = Arc::new(Mutex::new(game.recording(source)?));
+    pub(crate) fn new(path: &Path, game: &Session, source: &Source) -> Result<Self, Failure> {
+        let recording = Arc::new(Mutex::new(game.recording(source.words()?)?));
         let (kept, to) = (Arc::clone(&recording), path.to_path_buf());
         let save = move || save(&to, &lock(&kept));
         Ok(Self { recording, path: path.to_path_buf(), _kept: rescue::keep(save) })
     }
 
     /// The ticks since the last time.
-    pub(crate) fn add(&mut self, game: &Game) {
+    pub(crate) fn add(&mut self, game: &Session) {
         game.continue_recording(&mut lock(&self.recording));
     }
 
     /// The game has restarted, perhaps in another maze.
-    pub(crate) fn begin(&mut self, game: &Game, source: &Source) -> Result<(), Failure> {
-        *lock(&self.recording) = game.recording(source)?;
+    pub(crate) fn begin(&mut self, game: &Session, source: &Source) -> Result<(), Failure> {
+        *lock(&self.recording) = game.recording(source.words()?)?;
         Ok(())
     }
 

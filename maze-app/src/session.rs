@@ -4,7 +4,6 @@ use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::input::TiltControl;
 use crate::numbers::to_f32;
-use crate::source::Source;
 use maze_core::replay::{self, Constants, Recording};
 use maze_core::{Ball, Engine, Event, Hit, Maze, Phase, Run, Tick, Tilt, gravity};
 use maze_render::{BallView, Camera, GhostView, Marker, Scene};
@@ -16,8 +15,8 @@ const GOAL_GLOW: [f32; 2] = [0.35, 1.0];
 /// Fraction of its distance to the middle of the goal that the ball covers in a tick once it has got there.
 const SETTLE_FRACTION: f64 = 0.2;
 
-/// Owns what a run is made of; does not depend on windows.
-pub(crate) struct Game {
+/// Owns what a run is made of; knows no window, file or clock.
+pub(crate) struct Session {
     maze: Maze,
     kind: EngineKind,
     engine: Box<dyn Engine>,
@@ -56,7 +55,7 @@ impl Pose {
     }
 }
 
-impl Game {
+impl Session {
     pub(crate) fn new(maze: Maze, kind: EngineKind) -> Result<Self, Failure> {
         let engine = kind.build(&maze, Ball::at(maze.start()))?;
         let start = Pose::at_start(&maze);
@@ -137,8 +136,8 @@ impl Game {
         self.tilts.len()
     }
 
-    /// What was played since the start, up to the goal.
-    pub(crate) fn recording(&self, source: &Source) -> Result<Recording, Failure> {
+    /// What was played since the start, up to the goal; `words` give the maze again on the command line.
+    pub(crate) fn recording(&self, words: String) -> Result<Recording, Failure> {
         if replay::MAX_TICKS < self.tilts.len() {
             return Err(Failure::not_held(format!(
                 "the run is too long for a recording: {} ticks, at most {} fit",
@@ -147,7 +146,7 @@ impl Game {
             )));
         }
         Ok(Recording {
-            source: source.words()?,
+            source: words,
             maze_hash: replay::maze_hash(&self.maze),
             engine: self.kind.name().to_owned(),
             constants: Constants::of(self.engine.as_ref()),
@@ -304,13 +303,13 @@ mod tests {
     /// rapier keeps positions, here below 8 units, in f32.
     const F32_ROUNDING: f64 = 1.0e-6;
 
-    fn game() -> Game {
+    fn game() -> Session {
         game_with(EngineKind::Continuous)
     }
 
-    fn game_with(engine: EngineKind) -> Game {
+    fn game_with(engine: EngineKind) -> Session {
         let mesh = extrude::extrude(&layout::recursive_backtracker(6, 5, 11).unwrap());
-        Game::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap(), engine).unwrap()
+        Session::new(Maze::from_polygons(&mesh, &AssembleOptions::default()).unwrap(), engine).unwrap()
     }
 
     /// Tilts that change with the tick, as a player's would.

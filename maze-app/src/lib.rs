@@ -1,0 +1,32 @@
+//! The game and its command line. The only crate with a window, files and a clock.
+//!
+//! The game itself (session, screens, input, HUD, overlays) knows neither: what is bound to a window system, files or a clock
+//! stands in `platform` and `command`.
+#![forbid(unsafe_code)]
+
+mod clock;
+mod command;
+mod demo;
+mod engine_kind;
+mod failure;
+mod frame;
+mod frame_log;
+mod input;
+mod levels;
+mod loaded;
+mod measures;
+mod numbers;
+mod overlay;
+mod picture;
+mod platform;
+mod plot;
+mod quality;
+mod recipe;
+mod session;
+mod setup;
+mod slowness;
+mod source;
+mod ui;
+mod view;
+
+pub use command::main;

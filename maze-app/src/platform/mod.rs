@@ -1,0 +1,3 @@
+//! What is bound to a window system, files, a clock or threads.
+
+pub(crate) mod native;
