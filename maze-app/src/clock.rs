@@ -67,6 +67,17 @@ impl Clock {
         self.left_s = self.tick_s;
     }
 
+    /// No pause, at the usual speed.
+    pub(crate) fn go_on(&mut self) {
+        *self = Self::new(self.tick_s);
+    }
+
+    /// The single ticks that were asked for; what the last one led to is in view.
+    pub(crate) fn take_steps(&mut self) -> u32 {
+        (self.left_s, self.lost_s) = (self.tick_s, 0.0);
+        std::mem::take(&mut self.n_steps)
+    }
+
     /// One tick at the next [`Clock::advance`], and a pause.
     pub(crate) fn step(&mut self) {
         if !self.is_paused {

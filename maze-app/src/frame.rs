@@ -2,13 +2,14 @@
 
 use crate::failure;
 use crate::frame_log::FrameLog;
-use crate::ui::{Hud, Overlay};
+use crate::ui::Overlay;
+use egui::{PlatformOutput, RawInput, Ui};
 use maze_render::{Gpu, GpuTimer, Quality, Renderer, Scene, TextureSet};
 use wgpu::{SubmissionIndex, TextureFormat, TextureView};
 
 pub(crate) struct FramePainter {
     pub(crate) renderer: Renderer,
-    overlay: Overlay,
+    pub(crate) overlay: Overlay,
     /// None where the adapter does not measure it.
     timer: Option<GpuTimer>,
 }
@@ -24,21 +25,22 @@ impl FramePainter {
         Self { renderer, overlay, timer: GpuTimer::new(gpu) }
     }
 
-    /// Draws the frame with the log's number `number` onto `view`, of a size in pixels and a scale of the HUD.
+    /// Draws the frame with the log's number `number` onto `view`, of a size in pixels and a scale of what is written, which
+    /// `show` adds.
     pub(crate) fn draw(
         &mut self,
         gpu: &Gpu,
         (view, size, scale): (&TextureView, [u32; 2], f32),
-        scene: &Scene,
-        hud: &Hud<'_>,
-        number: u64,
-    ) -> SubmissionIndex {
+        (scene, number): (&Scene, u64),
+        input: RawInput,
+        show: impl FnMut(&mut Ui),
+    ) -> (SubmissionIndex, PlatformOutput) {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         if let Some(timer) = &mut self.timer {
             timer.begin(&mut encoder, number);
         }
         self.renderer.draw(gpu, &mut encoder, view, size, scene);
-        self.overlay.draw(gpu, &mut encoder, view, size, scale, |ui| hud.show(ui));
+        let output = self.overlay.draw(gpu, &mut encoder, (view, size, scale), input, show);
         if let Some(timer) = &mut self.timer {
             timer.end(&mut encoder);
         }
@@ -46,7 +48,7 @@ impl FramePainter {
         if let Some(timer) = &mut self.timer {
             timer.submitted();
         }
-        submitted
+        (submitted, output)
     }
 
     /// Writes the adapter's times of earlier frames into the log.

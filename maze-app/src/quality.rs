@@ -1,5 +1,6 @@
 //! How good the picture is to be, as chosen on the command line.
 
+use crate::settings::QualitySetting;
 use clap::ValueEnum;
 use maze_render::{Gpu, Quality};
 
@@ -14,6 +15,17 @@ pub(crate) enum QualityChoice {
     Medium,
     /// For graphics cards
     High,
+}
+
+impl From<QualitySetting> for QualityChoice {
+    fn from(setting: QualitySetting) -> Self {
+        match setting {
+            QualitySetting::Auto => Self::Auto,
+            QualitySetting::Low => Self::Low,
+            QualitySetting::Medium => Self::Medium,
+            QualitySetting::High => Self::High,
+        }
+    }
 }
 
 impl QualityChoice {

@@ -7,9 +7,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// What a random maze is like.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct RecipeArguments {
-    /// Cells of a random maze
-    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, default_value = GridSize::DEFAULT, allow_hyphen_values = true)]
-    size: GridSize,
+    /// Cells of a random maze [default: 14x9]
+    #[arg(long, value_name = "WxH", value_parser = parse_grid_size, allow_hyphen_values = true)]
+    size: Option<GridSize>,
     /// The same seed gives the same maze [default: a new one]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -32,13 +32,20 @@ pub(crate) struct RecipeArguments {
 pub(crate) const RECIPE_ARGUMENTS: [&str; 6] = ["size", "seed", "algorithm", "braid", "elitism", "river"];
 
 impl RecipeArguments {
+    /// Whether any of them was given.
+    pub(crate) fn is_given(&self) -> bool {
+        let Self { size, seed, algorithm, braid, elitism, river } = self;
+        let is_knob = elitism.is_some() || river.is_some() || *braid != 0.0;
+        size.is_some() || seed.is_some() || algorithm.is_some() || is_knob
+    }
+
     /// Chooses a seed where none was given.
     pub(crate) fn recipe(&self) -> Recipe {
+        let size = self.size.unwrap_or(GridSize::DEFAULT);
         let has_knobs = self.elitism.is_some() || self.river.is_some();
         let usual = if has_knobs { Algorithm::GrowingTree } else { Algorithm::default() };
         let algorithm = self.algorithm.unwrap_or(usual);
-        let recipe =
-            Recipe::new(self.size.width, self.size.height, algorithm, self.seed.unwrap_or_else(fresh_seed));
+        let recipe = Recipe::new(size.width, size.height, algorithm, self.seed.unwrap_or_else(fresh_seed));
         Recipe {
             braid: self.braid,
             elitism: self.elitism.unwrap_or(recipe.elitism),
@@ -68,6 +75,12 @@ pub(crate) fn fresh_seed() -> u64 {
     (since.as_secs() ^ u64::from(since.subsec_nanos())) % 1_000_000
 }
 
+/// Another one, by Knuth's MMIX generator.
+pub(crate) fn next_seed(seed: u64) -> u64 {
+    let next = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (next >> 33) % 1_000_000
+}
+
 /// Cells along x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct GridSize {
@@ -77,7 +90,7 @@ pub(crate) struct GridSize {
 
 impl GridSize {
     /// A maze of a few minutes that fits a wide window.
-    pub(crate) const DEFAULT: &str = "14x9";
+    pub(crate) const DEFAULT: Self = Self { width: 14, height: 9 };
 }
 
 /// `WxH`: two whole numbers.

@@ -49,6 +49,11 @@ impl Pose {
         self.world_from_maze * self.position.push(0.0)
     }
 
+    /// Of the ball, maze frame.
+    pub(crate) fn position(&self) -> Vector2<f64> {
+        self.position
+    }
+
     fn at_start(maze: &Maze) -> Self {
         let level = UnitQuaternion::identity();
         Self { position: maze.start(), ghost: None, rotation: level, world_from_maze: level }
@@ -75,11 +80,9 @@ impl Session {
         })
     }
 
-    /// Another maze under the same engines.
-    pub(crate) fn on(&self, maze: Maze) -> Result<Self, Failure> {
-        let mut game = Self::new(maze, self.kind)?;
-        game.set_ghost(self.ghost.as_ref().map(|(kind, _)| *kind))?;
-        Ok(game)
+    /// The engine of the ghost.
+    pub(crate) fn ghost_kind(&self) -> Option<EngineKind> {
+        self.ghost.as_ref().map(|(kind, _)| *kind)
     }
 
     /// From now on another engine's ball, which starts as the ball is now, gets the same tilts.
@@ -190,7 +193,7 @@ impl Session {
         self.played_to = self.engine.ball();
         self.current = Pose::at_start(&self.maze);
         self.previous = self.current;
-        self.set_ghost(self.ghost.as_ref().map(|(kind, _)| *kind))
+        self.set_ghost(self.ghost_kind())
     }
 
     /// Turns the board without simulating: for a picture of the start.
@@ -421,18 +424,6 @@ mod tests {
                 None
             );
         }
-    }
-
-    #[test]
-    fn another_maze_is_played_with_the_same_ghost() {
-        let mut game = game();
-        game.next_ghost().unwrap();
-        let name = game.ghost().unwrap().0;
-        game.tick(tilt_at(9)).unwrap();
-        let other = game.on(game_with(EngineKind::Published).maze).unwrap();
-        let (other_name, distance) = other.ghost().unwrap();
-        assert_eq!((other.kind, other_name), (EngineKind::Continuous, name));
-        assert!(distance < F32_ROUNDING);
     }
 
     #[cfg(not(feature = "rapier"))]

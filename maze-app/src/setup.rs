@@ -1,10 +1,10 @@
 //! What the game is set up with, checked before a window opens.
 
-use crate::engine_kind::EngineKind;
-use crate::quality::QualityChoice;
-use crate::source::Source;
+use crate::game::Rules;
+use crate::platform::native::Look;
+use crate::screen::Screen;
+use crate::settings::Settings;
 use clap::ValueEnum;
-use maze_render::TextureSet;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -26,19 +26,34 @@ pub(crate) enum Unfocused {
 
 /// What the window needs, all checked before it opens.
 pub(crate) struct Setup {
-    pub(crate) source: Source,
-    pub(crate) textures: TextureSet,
-    /// Where they come from whatever the maze.
-    pub(crate) textures_flag: Option<PathBuf>,
-    pub(crate) engine: EngineKind,
-    pub(crate) max_tilt_rad: f64,
-    pub(crate) state_log: Option<PathBuf>,
+    pub(crate) settings: Settings,
+    pub(crate) rules: Rules,
+    /// The screen in front.
+    pub(crate) first: Screen,
+    pub(crate) look: Look,
     pub(crate) record: Option<PathBuf>,
+    pub(crate) state_log: Option<PathBuf>,
     /// Where frames are written when the program is ended from outside.
     pub(crate) csv: Option<PathBuf>,
     pub(crate) exit_after: Option<Duration>,
     pub(crate) unfocused: Option<Unfocused>,
-    pub(crate) quality: QualityChoice,
+}
+
+/// What `maze-app frames` does differently from `maze-app play`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Options {
+    /// As many frames as the window takes.
+    pub(crate) uncapped: bool,
+    /// Of the window (pixels).
+    pub(crate) size: Option<[u32; 2]>,
+    /// How long frames are remembered (s).
+    pub(crate) keep_s: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { uncapped: false, size: None, keep_s: 10.0 }
+    }
 }
 
 pub(crate) fn parse_max_tilt(text: &str) -> Result<f64, String> {

@@ -9,6 +9,7 @@ use crate::platform::native::sidecar::{
     Sidecar, TextSigns, parse_tone, parse_up_axis, radius_in_range, tone_name,
 };
 use crate::recipe::{self, RECIPE_ARGUMENTS, RecipeArguments};
+use crate::screen::{Date, LevelCard};
 use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
@@ -75,6 +76,14 @@ pub(crate) struct MazeArguments {
     random: bool,
     #[command(flatten)]
     recipe: RecipeArguments,
+}
+
+impl MazeArguments {
+    /// Whether any of them was given.
+    pub(crate) fn is_given(&self) -> bool {
+        let has_maze = self.file.is_some() || self.level.is_some() || self.random || self.recipe.is_given();
+        has_maze || !self.read.words().is_empty()
+    }
 }
 
 /// Which maze, for a command that does not make any: a file or a level.
@@ -146,15 +155,18 @@ impl ReadArguments {
 }
 
 /// What is played, and how to get the next maze of the same kind.
+#[derive(Clone, Debug)]
 pub(crate) struct Source {
     read: ReadArguments,
     kind: Kind,
 }
 
+#[derive(Clone, Debug)]
 enum Kind {
     File(PathBuf),
     Level { number: usize, level: Level },
     Random(Recipe),
+    Daily(Date),
 }
 
 impl Kind {
@@ -184,6 +196,37 @@ impl Source {
         Ok(Self { read: arguments.read.clone(), kind })
     }
 
+    pub(crate) fn level(number: usize) -> Result<Self, Failure> {
+        Ok(Self { read: ReadArguments::default(), kind: Kind::level(number)? })
+    }
+
+    pub(crate) fn random(recipe: Recipe) -> Self {
+        Self { read: ReadArguments::default(), kind: Kind::Random(recipe) }
+    }
+
+    /// The maze of a day.
+    pub(crate) fn daily(date: Date) -> Self {
+        Self { read: ReadArguments::default(), kind: Kind::Daily(date) }
+    }
+
+    /// Its number, of a level.
+    pub(crate) fn level_number(&self) -> Option<usize> {
+        match self.kind {
+            Kind::Level { number, .. } => Some(number),
+            _ => None,
+        }
+    }
+
+    /// A picture of its plan, its name and its par, for the level grid.
+    pub(crate) fn card(&self, maze: &Maze, tick_s: f64) -> LevelCard {
+        let name = match &self.kind {
+            Kind::Level { level, .. } => level.name.clone(),
+            _ => self.title(),
+        };
+        let par_s = crate::ui::seconds(self.par_ticks().unwrap_or(0), tick_s);
+        LevelCard { name, par_s, plan: crate::ui::plan_of(maze) }
+    }
+
     /// A file, read as the last one was.
     pub(crate) fn of_file(&self, path: PathBuf) -> Self {
         Self { read: self.read.clone(), kind: Kind::File(path) }
@@ -199,6 +242,7 @@ impl Source {
         let mut words = self.read.words();
         match &self.kind {
             Kind::Random(recipe) => words.extend(recipe::words(recipe)),
+            Kind::Daily(date) => words.extend(recipe::words(&date.recipe())),
             Kind::Level { number, .. } => words.push(format!("--level={number}")),
             Kind::File(path) => {
                 let name = path.to_str().filter(|name| !name.contains('\n'));
@@ -221,6 +265,7 @@ impl Source {
             Kind::File(path) => self.read.load(path),
             Kind::Level { level, .. } => self.read.generate(&level.recipe).map(Loaded::from),
             Kind::Random(recipe) => self.read.generate(recipe).map(Loaded::from),
+            Kind::Daily(date) => self.read.generate(&date.recipe()).map(Loaded::from),
         }
     }
 
@@ -253,7 +298,7 @@ impl Source {
     pub(crate) fn file(&self) -> Option<&Path> {
         match &self.kind {
             Kind::File(path) => Some(path),
-            Kind::Level { .. } | Kind::Random(_) => None,
+            Kind::Level { .. } | Kind::Random(_) | Kind::Daily(_) => None,
         }
     }
 
@@ -261,7 +306,7 @@ impl Source {
     pub(crate) fn name(&self) -> String {
         match &self.kind {
             Kind::File(path) => path.display().to_string(),
-            Kind::Level { .. } | Kind::Random(_) => self.title(),
+            Kind::Level { .. } | Kind::Random(_) | Kind::Daily(_) => self.title(),
         }
     }
 
@@ -270,6 +315,7 @@ impl Source {
         match &self.kind {
             Kind::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
             Kind::Level { number, level } => format!("Level {number}  {}", level.name),
+            Kind::Daily(date) => format!("Daily maze {date}"),
             Kind::Random(Recipe { width, height, algorithm: Algorithm::Backtracker, seed, .. }) => {
                 format!("{width}x{height}  seed {seed}")
             }
@@ -283,7 +329,7 @@ impl Source {
     pub(crate) fn par_ticks(&self) -> Option<u64> {
         match &self.kind {
             Kind::Level { level, .. } => Some(level.par_ticks),
-            Kind::File(_) | Kind::Random(_) => None,
+            Kind::File(_) | Kind::Random(_) | Kind::Daily(_) => None,
         }
     }
 
@@ -292,17 +338,17 @@ impl Source {
         match &self.kind {
             Kind::Random(_) => Onwards::NewMaze,
             Kind::Level { number, .. } if *number < N_LEVELS => Onwards::NextLevel,
-            Kind::Level { .. } | Kind::File(_) => Onwards::Nothing,
+            Kind::Level { .. } | Kind::File(_) | Kind::Daily(_) => Onwards::Nothing,
         }
     }
 
-    /// Moves on to another random maze or to the next level; false when there is none.
-    pub(crate) fn go_on(&mut self) -> Result<bool, Failure> {
+    /// Moves on to the random maze of a seed or to the next level; false when there is none.
+    pub(crate) fn go_on(&mut self, seed: u64) -> Result<bool, Failure> {
         match &mut self.kind {
-            Kind::File(_) => Ok(false),
+            Kind::File(_) | Kind::Daily(_) => Ok(false),
             Kind::Level { .. } => self.change_level(true),
             Kind::Random(recipe) => {
-                recipe.seed = recipe::fresh_seed();
+                recipe.seed = seed;
                 Ok(true)
             }
         }
@@ -313,7 +359,7 @@ impl Source {
         let number = match (&self.kind, forwards) {
             (Kind::Level { number, .. }, true) => number + 1,
             (Kind::Level { number, .. }, false) => number - 1,
-            (Kind::File(_) | Kind::Random(_), _) => 1,
+            (Kind::File(_) | Kind::Random(_) | Kind::Daily(_), _) => 1,
         };
         let exists = (1..=N_LEVELS).contains(&number);
         if exists {

@@ -32,10 +32,10 @@ pub(crate) fn beside(camera: Camera, aspect: f32, covered: f32) -> Camera {
     Camera { target: target.into(), ..camera }
 }
 
-/// A view that leaves a part of the height free at the lower edge: farther away, and looking lower.
-pub(crate) fn with_room_below(camera: Camera, fraction: f32) -> Camera {
-    let distance = camera.distance / (1.0 - fraction);
-    let down = fraction * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
+/// A view that leaves parts of the height free at the lower and at the upper edge: farther away, and its middle in what is left.
+pub(crate) fn with_room(camera: Camera, below: f32, above: f32) -> Camera {
+    let distance = camera.distance / (1.0 - below - above);
+    let down = (below - above) * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
     let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
     Camera { target: target.into(), distance }
 }
@@ -77,11 +77,25 @@ impl View {
         self.camera
     }
 
-    /// Moves towards what is wanted: `whole` shows the whole maze, `ball` is where the ball is in the world.
-    pub(crate) fn update(&mut self, elapsed: Duration, whole: Camera, ball: Vector3<f32>) {
-        let left = (-elapsed.as_secs_f64() / SETTLE_S).exp();
-        self.zoom = self.wanted_zoom + (self.zoom - self.wanted_zoom) * left;
-        self.camera = zoomed(whole, self.zoom, ball);
+    /// At this zoom: `whole` shows the whole maze.
+    pub(crate) fn look(&self, whole: Camera, ball: Vector3<f32>) -> Camera {
+        zoomed(whole, self.zoom, ball)
+    }
+
+    /// Moves towards what is wanted: `whole` shows the whole maze, `ball` is where the ball is in the world. `nearest` is the
+    /// least zoom: 1, or more where the view follows the ball. Without `slides` it is there at once.
+    pub(crate) fn update(
+        &mut self,
+        elapsed: Duration,
+        whole: Camera,
+        ball: Vector3<f32>,
+        nearest: f64,
+        slides: bool,
+    ) {
+        let wanted = (self.wanted_zoom * nearest).clamp(ZOOM_RANGE[0], ZOOM_RANGE[1]);
+        let left = if slides { (-elapsed.as_secs_f64() / SETTLE_S).exp() } else { 0.0 };
+        self.zoom = wanted + (self.zoom - wanted) * left;
+        self.camera = self.look(whole, ball);
     }
 }
 
@@ -94,7 +108,7 @@ mod tests {
     fn settled(notches: f64) -> Camera {
         let mut view = View::default();
         view.zoom_by_notches(notches);
-        view.update(Duration::from_secs(10), WHOLE, Vector3::new(3.0, 4.0, 0.0));
+        view.update(Duration::from_secs(10), WHOLE, Vector3::new(3.0, 4.0, 0.0), 1.0, true);
         view.camera()
     }
 
@@ -110,8 +124,8 @@ mod tests {
     fn room_below_moves_the_picture_up_and_makes_it_smaller() {
         let size = [1000, 1000];
         let middle = |camera: Camera| camera.project(size, WHOLE.target).unwrap();
-        assert_eq!(middle(with_room_below(WHOLE, 0.0)), middle(WHOLE));
-        let [x, y] = middle(with_room_below(WHOLE, 0.2));
+        assert_eq!(middle(with_room(WHOLE, 0.0, 0.0)), middle(WHOLE));
+        let [x, y] = middle(with_room(WHOLE, 0.2, 0.0));
         // Above a free fifth the middle lies at 40 % of the height.
         assert!((x - 500.0).abs() < 0.1 && (y - 400.0).abs() < 0.1, "{x}, {y}");
     }

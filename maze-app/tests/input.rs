@@ -55,13 +55,13 @@ impl Session {
 }
 
 #[test]
-fn i1_i10_held_keys_tilt_across_a_second_key_restart_level_pause_and_another_maze() {
+fn i1_i10_held_keys_tilt_across_a_second_key_restart_level_and_pause() {
     let mut session = Session::open(&MAZE);
     session.xdotool(&["keydown", "Right"]);
     session.wait_for("a key to tilt", |state| FAR_DEGREES < right_degrees(state));
     session.xdotool(&["keydown", "d", "keyup", "d"]);
     assert!(session.next_states().iter().all(|state| FAR_DEGREES < right_degrees(state)), "I1");
-    for key in ["r", "t", "n", "Next"] {
+    for key in ["r", "t"] {
         session.xdotool(&["key", key]);
         let level = session.wait_for(key, |state| right_degrees(state) < FAR_DEGREES - 5.0);
         session.wait_for(key, |state| level.tick < state.tick && FAR_DEGREES < right_degrees(state));
@@ -82,7 +82,7 @@ fn i1_i10_held_keys_tilt_across_a_second_key_restart_level_pause_and_another_maz
 
 #[test]
 fn i2_i3_keys_work_by_their_place_on_every_layout_and_do_one_thing() {
-    let mut session = Session::open(&MAZE);
+    let mut session = Session::open(&[&MAZE[..], &["--keys", "report"]].concat());
     let layouts: [&[&str]; 9] = [
         &["ru"],
         &["ua"],

@@ -55,7 +55,7 @@ fn mouse_and_keys_play_the_game() {
     session.xdotool(&["key", "d"]);
     session.wait_for("a tap on D to be felt", |state| 0.5 < state.tilt_degrees());
 
-    session.xdotool(&["key", "Escape"]);
+    session.close();
     assert!(session.exit_status().success());
 }
 
@@ -95,7 +95,7 @@ fn the_goal_stops_the_clock_r_starts_again_and_keys_go_on_to_other_mazes() {
         });
         session.expect_alive(title);
     }
-    session.xdotool(&["key", "Escape"]);
+    session.close();
     assert!(session.exit_status().success());
     // The run that reached the goal was kept, and ends there again.
     let replay = Command::new(env!("CARGO_BIN_EXE_maze-app")).args(["replay", &run]).output().unwrap();
@@ -106,7 +106,7 @@ fn the_goal_stops_the_clock_r_starts_again_and_keys_go_on_to_other_mazes() {
 
 #[test]
 fn zoom_keys_move_the_camera_within_limits() {
-    let mut session = Session::open(&MAZE);
+    let mut session = Session::open(&[&MAZE[..], &["--keys", "report"]].concat());
     let whole = session.last().camera_distance;
     session.xdotool(&["key", "b"]);
     session.wait_for("B to zoom in", |state| state.camera_distance < 0.95 * whole);
@@ -166,7 +166,7 @@ fn keys_show_ghosts_change_the_quality_show_frame_times_fill_the_screen_and_save
         session.xdotool(&["key", "F11"]);
     }
     assert!(!session.directory.path().join("maze-0003.png").exists());
-    session.xdotool(&["key", "Escape"]);
+    session.close();
     assert!(session.exit_status().success());
 }
 
@@ -233,9 +233,9 @@ fn a_pause_holds_the_ticks_and_each_overlay_is_as_render_draws_it() {
     }
     assert_eq!(session.last().tick, paused + 3);
     session.xdotool(&["keyup", "Right"]);
-    session.xdotool(&["key", "space", "minus", "equal"]);
+    session.xdotool(&["key", "space", "bracketleft", "bracketright"]);
     session.expect_alive("the end of the pause");
-    session.xdotool(&["key", "Escape"]);
+    session.close();
     assert!(session.exit_status().success());
 }
 

@@ -334,6 +334,17 @@ impl WindowTarget {
         }
     }
 
+    /// Whether frames come in step with the screen; without it, as soon as they are ready where that is offered.
+    pub fn set_vsync(&mut self, gpu: &Gpu, vsync: bool) {
+        let mode = if vsync { wgpu::PresentMode::Fifo } else { wgpu::PresentMode::AutoNoVsync };
+        if mode != self.config.present_mode {
+            self.config.present_mode = mode;
+            if self.has_area {
+                self.configure(gpu);
+            }
+        }
+    }
+
     /// Whether the window turns light into sRGB itself, as far as it can, see [`crate::Quality::wants_srgb_target`].
     /// Afterwards [`WindowTarget::format`] may be another one.
     pub fn set_srgb(&mut self, gpu: &Gpu, srgb: bool) {

@@ -6,21 +6,25 @@ use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::frame::FramePainter;
 use crate::frame_log::{FrameLog, Parts, Spread, Stopwatch};
+use crate::game::{Board, Role, Rules};
 use crate::input::Keyboard;
 use crate::numbers::to_f32;
 use crate::numbers::to_points;
-use crate::overlay::{Layers, Notes};
+use crate::overlay::Notes;
 use crate::platform::native::files;
 use crate::platform::native::keeper::KeptFrames;
-use crate::platform::native::{self, App, Options};
+use crate::platform::native::{self, App, Look, SettingsFile};
 use crate::plot;
 use crate::quality::QualityChoice;
 use crate::recipe::parse_pixel_size;
+use crate::screen::{Date, Screen};
 use crate::session::Session;
-use crate::setup::{Setup, USUAL_MAX_TILT_DEGREES, parse_seconds};
+use crate::settings::Settings;
+use crate::setup::{Options, Setup, USUAL_MAX_TILT_DEGREES, parse_seconds};
 use crate::source::{ReadArguments, Source};
 use crate::ui::{Hud, Labels};
 use clap::Args;
+use egui::RawInput;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_render::{Camera, Gpu, Quality};
 use std::collections::VecDeque;
@@ -151,30 +155,41 @@ fn source(arguments: &Arguments) -> Source {
     Source::file_or_random(&arguments.read, arguments.file.clone(), recipe)
 }
 
+/// The autopilot plays round after round.
+fn rules() -> Rules {
+    Rules {
+        engine: EngineKind::Continuous,
+        max_tilt_rad: USUAL_MAX_TILT_DEGREES.to_radians(),
+        demo: true,
+        rounds: true,
+        seed: SEED,
+        today: Date::default(),
+    }
+}
+
 fn in_a_window(arguments: &Arguments, started: Instant) -> Result<Measured, Failure> {
     let source = source(arguments);
     let maze = source.load()?;
+    let rules = rules();
+    let board = Board::new(maze, source, Role::Play, &rules)?;
     let setup = Setup {
-        source,
-        textures: files::textures(None)?,
-        textures_flag: None,
-        engine: EngineKind::Continuous,
-        max_tilt_rad: USUAL_MAX_TILT_DEGREES.to_radians(),
-        state_log: None,
+        settings: Settings::default(),
+        rules,
+        first: Screen::Playing,
+        look: Look::new(files::textures(None)?, None, arguments.quality),
         record: None,
+        state_log: None,
         csv: arguments.csv.clone(),
         exit_after: Some(arguments.seconds),
         unfocused: None,
-        quality: arguments.quality,
     };
     let event_loop = native::event_loop()?;
     if arguments.size.iter().any(|side| EVERY_ADAPTER < *side) {
         // A window of a size that no adapter can draw is not opened.
         expect_size(arguments.size, &Gpu::offscreen().map_err(Failure::bad_input)?)?;
     }
-    let options =
-        Options { demo: true, uncapped: arguments.uncapped, size: Some(arguments.size), keep_s: f64::MAX };
-    let shown = App::new(setup, options, maze)?.run(event_loop)?;
+    let options = Options { uncapped: arguments.uncapped, size: Some(arguments.size), keep_s: f64::MAX };
+    let shown = App::new(setup, options, board, SettingsFile::none(), None)?.run(event_loop)?;
     let (adapter, quality, size) = shown
         .drawn_by()
         .ok_or_else(|| Failure::not_held("the window was closed before the time was over"))?;
@@ -195,7 +210,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     let source = source(arguments);
     let mut game = Session::new(source.load()?, EngineKind::Continuous)?;
     let max_tilt_rad = USUAL_MAX_TILT_DEGREES.to_radians();
-    let mut demo = Demo::new(&game, max_tilt_rad)?;
+    let mut demo = Demo::new(&game, max_tilt_rad, true)?;
     let gpu = Gpu::offscreen().map_err(Failure::bad_input)?;
     let quality = arguments.quality.on(&gpu);
     let size = arguments.size;
@@ -206,6 +221,7 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
     let aspect = to_points(size[0], 1.0) / to_points(size[1], 1.0);
     let camera = Camera::fitted(game.half_size(), aspect, to_f32(max_tilt_rad));
     let labels = Labels::new(&source, game.maze());
+    let (keyboard, notes) = (Keyboard::default(), Notes::default());
     let mut clock = Clock::new(game.tick_s());
     let mut log = FrameLog::new(f64::MAX);
     let kept = arguments.csv.clone().map(KeptFrames::new);
@@ -223,21 +239,12 @@ fn offscreen(arguments: &Arguments, started: Instant) -> Result<Measured, Failur
         let simulate = watch.ms();
         let watch = Stopwatch::start();
         let scene = game.scene(&game.pose(clock.alpha(), None), camera);
-        let hud = Hud {
-            phase: game.phase(),
-            n_ticks: game.n_ticks(),
-            tick_s: game.tick_s(),
-            ghost: game.ghost(),
-            labels: &labels,
-            help: true,
-            notice: None,
-            layers: Layers::default(),
-            notes: &Notes::default(),
-            pace: None,
-            keyboard: &Keyboard::default(),
-            frames: None,
-        };
-        ahead.push_back(painter.draw(&gpu, (&view, size, 1.0), &scene, &hud, log.next_number()));
+        let hud = Hud::of(&game, &labels, &keyboard, &notes);
+        let number = log.next_number();
+        let input = RawInput::default();
+        let (submitted, _) =
+            painter.draw(&gpu, (&view, size, 1.0), (&scene, number), input, |ui| hud.show(ui));
+        ahead.push_back(submitted);
         let encode = watch.ms();
         let watch = Stopwatch::start();
         if N_FRAMES_AHEAD <= ahead.len() || first_frame.is_none() {

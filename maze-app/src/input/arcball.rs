@@ -27,6 +27,11 @@ pub(crate) fn drag_tangents(size: [u32; 2], from: [f64; 2], to: [f64; 2]) -> Vec
     }
 }
 
+/// The same by pixels alone, whatever the window: 1280 x 720 counts as every size.
+pub(crate) fn relative_tangents(from: [f64; 2], to: [f64; 2]) -> Vector2<f64> {
+    drag_tangents([1280, 720], from, to)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

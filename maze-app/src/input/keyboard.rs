@@ -1,10 +1,10 @@
 //! Which keys are down, and what a press of one means.
 
-use super::bindings::{self, Action, Control};
+use super::bindings::{self, Action, Bindings, Control};
 use super::letters::{Layout, Letters};
 use super::tilt_control::Direction;
 use winit::event::KeyEvent;
-use winit::keyboard::{Key, KeyCode, ModifiersState, PhysicalKey};
+use winit::keyboard::{Key, KeyCode, ModifiersState, NamedKey, PhysicalKey};
 use winit::platform::modifier_supplement::KeyEventExtModifierSupplement;
 
 /// A key went down or up.
@@ -34,17 +34,21 @@ impl Stroke {
         })
     }
 
-    fn control(&self) -> Option<Control> {
-        bindings::control_of(match self.key {
+    /// How a binding names it.
+    pub(crate) fn bound_key(&self) -> bindings::Key {
+        match self.key {
             Key::Named(name) => bindings::Key::Name(name),
+            // With Shift it prints a narrow space on some layouts.
+            _ if self.place == KeyCode::Space => bindings::Key::Name(NamedKey::Space),
             _ => bindings::Key::Place(self.place),
-        })
+        }
     }
 }
 
-/// The keys that are down, the modifiers, and the letters of the player's layout.
+/// The player's bindings, the keys that are down, the modifiers, and the letters of the player's layout.
 #[derive(Debug, Default)]
 pub(crate) struct Keyboard {
+    bindings: Bindings,
     /// With what each was for when it went down: a modifier that comes later changes nothing.
     held: Vec<(KeyCode, Option<Control>)>,
     modifiers: ModifiersState,
@@ -61,6 +65,20 @@ pub(crate) enum Effect {
 }
 
 impl Keyboard {
+    #[cfg(test)]
+    pub(crate) fn with(bindings: Bindings) -> Self {
+        Self { bindings, ..Self::default() }
+    }
+
+    pub(crate) fn bindings(&self) -> &Bindings {
+        &self.bindings
+    }
+
+    /// From the next press on; what is held stays what it is.
+    pub(crate) fn bind(&mut self, bindings: Bindings) {
+        self.bindings = bindings;
+    }
+
     pub(crate) fn set_modifiers(&mut self, modifiers: ModifiersState) {
         self.modifiers = modifiers;
     }
@@ -80,7 +98,7 @@ impl Keyboard {
             };
         }
         self.learn(stroke);
-        let control = stroke.control().filter(|control| self.allows(*control));
+        let control = self.bindings.control_of(stroke.bound_key()).filter(|control| self.allows(*control));
         self.held.push((stroke.place, control));
         match control? {
             Control::Tilt(direction) => Some(Effect::Tilt(direction)),
@@ -133,13 +151,38 @@ impl Keyboard {
         }
     }
 
-    /// The letter of a control's first key that is identified by its place.
-    pub(crate) fn letter_of(&self, control: Control) -> String {
-        let place = bindings::keys_of(control).iter().find_map(|key| match key {
-            bindings::Key::Place(place) => Some(*place),
-            bindings::Key::Name(_) => None,
-        });
-        place.map_or("?".to_owned(), |place| self.letters.name(place))
+    /// What is printed on a key.
+    pub(crate) fn name_of(&self, key: bindings::Key) -> String {
+        match key {
+            bindings::Key::Place(place) => self.letters.name(place),
+            bindings::Key::Name(name) => match name {
+                NamedKey::ArrowLeft => "Left".to_owned(),
+                NamedKey::ArrowRight => "Right".to_owned(),
+                NamedKey::ArrowUp => "Up".to_owned(),
+                NamedKey::ArrowDown => "Down".to_owned(),
+                NamedKey::Escape => "Esc".to_owned(),
+                NamedKey::PageUp => "Page Up".to_owned(),
+                NamedKey::PageDown => "Page Down".to_owned(),
+                name => format!("{name:?}"),
+            },
+        }
+    }
+
+    /// The keys of a control, by what is printed on them.
+    pub(crate) fn names_of(&self, control: Control) -> Vec<String> {
+        self.bindings.keys_of(control).iter().map(|key| self.name_of(*key)).collect()
+    }
+
+    /// The first keys of some controls in a few letters, and the second ones of the tilt: arrows / W A S D.
+    pub(crate) fn hint_of(&self, controls: &[Control]) -> String {
+        let names: Vec<_> = controls.iter().map(|control| self.names_of(*control)).collect();
+        let row = |place: usize| {
+            let row: Option<Vec<&str>> = names.iter().map(|keys| Some(keys.get(place)?.as_str())).collect();
+            let row = row?;
+            Some(if row == ["Up", "Left", "Down", "Right"] { "arrows".to_owned() } else { row.join(" ") })
+        };
+        let is_tilt = matches!(controls.first(), Some(Control::Tilt(_)));
+        row(0).into_iter().chain(row(1).filter(|_| is_tilt)).collect::<Vec<_>>().join(" / ")
     }
 
     /// All letters, to be compared with those of another frame.

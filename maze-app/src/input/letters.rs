@@ -1,9 +1,8 @@
 //! What is printed on the keys of the player's keyboard, as far as the window system reports it.
 
-use super::bindings;
 use winit::keyboard::KeyCode;
 
-/// Letters of the places in the table of bindings, for one layout.
+/// What is printed at each place, for one layout.
 pub(crate) type Layout = Vec<(KeyCode, String)>;
 
 /// What is known of the player's layout: all of it where the window system can be asked, else key by key as they are pressed.
@@ -51,7 +50,10 @@ impl Letters {
         if let Some(letter) = find(&self.seen, place).or_else(|| find(layout?, place)) {
             return letter.to_owned();
         }
-        let us = us_letter(place).unwrap_or("?");
+        if let Some(name) = find_in(&EVERYWHERE, place) {
+            return name.to_owned();
+        }
+        let Some(us) = us_letter(place) else { return format!("{place:?}") };
         // A letter that is somewhere else on this keyboard, as far as is known, would mislead.
         let is_letter = |name: &str| name.chars().all(|letter| letter.is_ascii_alphabetic());
         let differs = |us: &str, letter: &str| is_letter(us) && us != letter;
@@ -67,30 +69,86 @@ fn find(layout: &Layout, place: KeyCode) -> Option<&str> {
 
 /// The places whose letters are shown.
 pub(crate) fn lettered_places() -> impl Iterator<Item = KeyCode> {
-    bindings::places().filter(|place| us_letter(*place).is_some())
+    US.iter().map(|(place, _)| *place)
 }
 
-/// What a US keyboard prints at the places of the table; digits are printed on the caps of almost every layout.
+/// What a US keyboard prints at the places whose letters differ from layout to layout.
+const US: [(KeyCode, &str); 37] = [
+    (KeyCode::KeyA, "A"),
+    (KeyCode::KeyB, "B"),
+    (KeyCode::KeyC, "C"),
+    (KeyCode::KeyD, "D"),
+    (KeyCode::KeyE, "E"),
+    (KeyCode::KeyF, "F"),
+    (KeyCode::KeyG, "G"),
+    (KeyCode::KeyH, "H"),
+    (KeyCode::KeyI, "I"),
+    (KeyCode::KeyJ, "J"),
+    (KeyCode::KeyK, "K"),
+    (KeyCode::KeyL, "L"),
+    (KeyCode::KeyM, "M"),
+    (KeyCode::KeyN, "N"),
+    (KeyCode::KeyO, "O"),
+    (KeyCode::KeyP, "P"),
+    (KeyCode::KeyQ, "Q"),
+    (KeyCode::KeyR, "R"),
+    (KeyCode::KeyS, "S"),
+    (KeyCode::KeyT, "T"),
+    (KeyCode::KeyU, "U"),
+    (KeyCode::KeyV, "V"),
+    (KeyCode::KeyW, "W"),
+    (KeyCode::KeyX, "X"),
+    (KeyCode::KeyY, "Y"),
+    (KeyCode::KeyZ, "Z"),
+    (KeyCode::Backquote, "`"),
+    (KeyCode::Minus, "-"),
+    (KeyCode::Equal, "="),
+    (KeyCode::BracketLeft, "["),
+    (KeyCode::BracketRight, "]"),
+    (KeyCode::Backslash, "\\"),
+    (KeyCode::Semicolon, ";"),
+    (KeyCode::Quote, "'"),
+    (KeyCode::Comma, ","),
+    (KeyCode::Period, "."),
+    (KeyCode::Slash, "/"),
+];
+
+/// Digits are printed on the caps of almost every layout, and a number pad is the same everywhere.
+const EVERYWHERE: [(KeyCode, &str); 26] = [
+    (KeyCode::Digit0, "0"),
+    (KeyCode::Digit1, "1"),
+    (KeyCode::Digit2, "2"),
+    (KeyCode::Digit3, "3"),
+    (KeyCode::Digit4, "4"),
+    (KeyCode::Digit5, "5"),
+    (KeyCode::Digit6, "6"),
+    (KeyCode::Digit7, "7"),
+    (KeyCode::Digit8, "8"),
+    (KeyCode::Digit9, "9"),
+    (KeyCode::Numpad0, "Num 0"),
+    (KeyCode::Numpad1, "Num 1"),
+    (KeyCode::Numpad2, "Num 2"),
+    (KeyCode::Numpad3, "Num 3"),
+    (KeyCode::Numpad4, "Num 4"),
+    (KeyCode::Numpad5, "Num 5"),
+    (KeyCode::Numpad6, "Num 6"),
+    (KeyCode::Numpad7, "Num 7"),
+    (KeyCode::Numpad8, "Num 8"),
+    (KeyCode::Numpad9, "Num 9"),
+    (KeyCode::NumpadAdd, "Num +"),
+    (KeyCode::NumpadSubtract, "Num -"),
+    (KeyCode::NumpadMultiply, "Num *"),
+    (KeyCode::NumpadDivide, "Num /"),
+    (KeyCode::NumpadDecimal, "Num ."),
+    (KeyCode::IntlBackslash, "<"),
+];
+
+fn find_in(table: &[(KeyCode, &'static str)], place: KeyCode) -> Option<&'static str> {
+    table.iter().find(|(known, _)| *known == place).map(|(_, letter)| *letter)
+}
+
 pub(super) fn us_letter(place: KeyCode) -> Option<&'static str> {
-    Some(match place {
-        KeyCode::KeyA => "A",
-        KeyCode::KeyB => "B",
-        KeyCode::KeyD => "D",
-        KeyCode::KeyG => "G",
-        KeyCode::KeyH => "H",
-        KeyCode::KeyN => "N",
-        KeyCode::KeyP => "P",
-        KeyCode::KeyQ => "Q",
-        KeyCode::KeyR => "R",
-        KeyCode::KeyS => "S",
-        KeyCode::KeyT => "T",
-        KeyCode::KeyW => "W",
-        KeyCode::KeyX => "X",
-        KeyCode::Period => ".",
-        KeyCode::Minus => "-",
-        KeyCode::Equal => "=",
-        _ => return None,
-    })
+    find_in(&US, place)
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The tilt that mouse and keys ask for, held under its limit.
 
+use crate::settings::{Controls, Curve};
 use maze_core::Tilt;
 use nalgebra::Vector2;
 
@@ -10,8 +11,11 @@ const KEY_RATE_PER_S: f64 = 0.5;
 /// A key counts as held for at least this long, so that a tap between two ticks is still felt.
 const TAP_S: f64 = 0.1;
 
-/// A drag or a key may ask for this many times the limit, where 98.5 % of it are given; more is forgotten, so that
-/// dragging back answers at once.
+/// What of that rate a key begins with, and after how long it has all of it (s): a tap tips a little, a held key more.
+const FIRST_RATE: f64 = 0.4;
+const FULL_RATE_AFTER_S: f64 = 0.3;
+
+/// A drag or a key may ask for this many times the limit, where 98.5 % of it are given; more is forgotten.
 const MAX_EXCESS: f64 = 2.0;
 
 /// Where a key tips the board: the side that goes down.
@@ -44,8 +48,21 @@ pub(crate) struct TiltControl {
     is_dragged: bool,
     held: [bool; 4],
     tapped_left_s: [f64; 4],
+    /// How long any key has tipped the board.
+    held_s: f64,
     /// Whether keys moved the board last: then it returns to level when they are released.
     keys_lead: bool,
+    tuning: Tuning,
+}
+
+/// What the player has chosen of it.
+#[derive(Clone, Copy, Debug)]
+struct Tuning {
+    /// Of the mouse along x and y; negative where an axis is inverted.
+    drag: Vector2<f64>,
+    /// Power of the response.
+    power: f64,
+    keys: f64,
 }
 
 impl TiltControl {
@@ -57,13 +74,30 @@ impl TiltControl {
             is_dragged: false,
             held: [false; 4],
             tapped_left_s: [0.0; 4],
+            held_s: 0.0,
             keys_lead: false,
+            tuning: Tuning { drag: Vector2::new(1.0, 1.0), power: 1.0, keys: 1.0 },
         }
+    }
+
+    pub(crate) fn tune(&mut self, controls: &Controls) {
+        let sign = |is_inverted: bool| if is_inverted { -1.0 } else { 1.0 };
+        let drag = Vector2::new(sign(controls.invert_x), sign(controls.invert_y)) * controls.sensitivity;
+        let power = match controls.curve {
+            Curve::Linear => 1.0,
+            Curve::Gentle => 1.5,
+            Curve::Finest => 2.0,
+        };
+        self.tuning = Tuning { drag, power, keys: controls.key_speed };
     }
 
     /// The tilt to simulate and to draw.
     pub(crate) fn tilt(&self) -> Tilt {
         let given = soft_limited(self.asked, self.limit);
+        let given = match self.keys_lead || self.tuning.power == 1.0 {
+            true => given,
+            false => given * (given.norm() / self.limit).powf(self.tuning.power - 1.0),
+        };
         Tilt::from_half_tangents(given.x, given.y)
     }
 
@@ -88,9 +122,17 @@ impl TiltControl {
 
     /// The mouse has moved, by so much in half-angle tangents; does nothing without a drag.
     pub(crate) fn drag_by(&mut self, tangents: Vector2<f64>) {
-        if self.is_dragged {
-            self.asked = capped(self.asked + tangents, MAX_EXCESS * self.limit);
+        if !self.is_dragged {
+            return;
         }
+        let step = tangents.component_mul(&self.tuning.drag);
+        let is_back = step.dot(&self.asked) < 0.0;
+        let asked = match is_back && self.limit < self.asked.norm() {
+            // Beyond the limit the board follows little; on the way back it follows at once.
+            true => asked_for(soft_limited(self.asked, self.limit) + step, self.limit),
+            false => self.asked + step,
+        };
+        self.asked = capped(asked, MAX_EXCESS * self.limit);
     }
 
     pub(crate) fn end_drag(&mut self) {
@@ -131,7 +173,10 @@ impl TiltControl {
         // Opposite keys cancel; two neighbours tip diagonally, no further than one.
         let wanted = wanted.try_normalize(0.0).unwrap_or_default() * (MAX_EXCESS * self.limit);
         let direction = wanted - self.asked;
-        self.asked += capped(direction, KEY_RATE_PER_S * tick_s);
+        self.held_s = if wanted == Vector2::zeros() { 0.0 } else { self.held_s + tick_s };
+        let grown = (self.held_s / FULL_RATE_AFTER_S).min(1.0);
+        let rate = if self.held_s == 0.0 { 1.0 } else { FIRST_RATE + (1.0 - FIRST_RATE) * grown };
+        self.asked += capped(direction, KEY_RATE_PER_S * self.tuning.keys * rate * tick_s);
     }
 }
 
@@ -145,6 +190,13 @@ fn capped(vector: Vector2<f64>, longest: f64) -> Vector2<f64> {
 fn soft_limited(asked: Vector2<f64>, limit: f64) -> Vector2<f64> {
     let excess = asked.norm_squared() / (limit * limit);
     asked / (1.0 + excess * excess).sqrt().sqrt()
+}
+
+/// What [`soft_limited`] makes this of; only a little longer than the limit where there is no such vector.
+fn asked_for(given: Vector2<f64>, limit: f64) -> Vector2<f64> {
+    let given = capped(given, 0.99 * limit);
+    let excess = given.norm_squared() / (limit * limit);
+    given / (1.0 - excess * excess).sqrt().sqrt()
 }
 
 #[cfg(test)]

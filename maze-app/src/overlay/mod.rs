@@ -5,7 +5,7 @@ mod table;
 
 use crate::numbers::to_f32;
 use crate::numbers::to_points;
-use crate::session::Session;
+use crate::session::{Pose, Session};
 use maze_core::trace::{self, GroupVisit, SearchTrace};
 use maze_core::{Facing, Hit, Path, Plane, SweepQuery, contact, gravity};
 use maze_render::Scene;
@@ -61,7 +61,7 @@ impl Layer {
         [Self::Gravity, Self::Planes, Self::Search, Self::Contact, Self::Velocity, Self::Clearance];
 
     /// As on the command line.
-    pub(crate) fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Gravity => "gravity",
             Self::Planes => "planes",
@@ -155,6 +155,26 @@ pub(crate) fn add(layers: Layers, game: &Session, scene: &mut Scene, size: [u32;
     scene.lines.extend(pen.lines);
     scene.patches.extend(pen.patches);
     notes
+}
+
+/// Rings around the ball, the start and the goal that stand out from every floor: black with white inside.
+pub(crate) fn mark(session: &Session, pose: &Pose, scene: &mut Scene) {
+    let maze = session.maze();
+    let radius = maze.ball_radius.units();
+    let rings = [
+        (pose.position(), 1.25 * radius),
+        (maze.start(), maze.goal_radius()),
+        (maze.goal(), maze.goal_radius()),
+        (maze.goal(), 0.6 * maze.goal_radius()),
+    ];
+    let mut pen = Pen::new(Point3::origin(), maze.wall_height);
+    for (middle, radius) in rings {
+        for (width, colour) in [(7.0, [0, 0, 0]), (3.0, [255, 255, 255])] {
+            // As high as the ball, so that no wall hides it.
+            pen.ring(middle.push(maze.wall_height), radius, width, colour);
+        }
+    }
+    scene.lines.extend(pen.lines);
 }
 
 /// The colours of the report.

@@ -1,15 +1,19 @@
 //! Clock, maze, keys, and the goal.
 
+use super::menu::{Plan, SMALL_LETTERS};
 use super::{FramesPanel, letters};
-use crate::input::{Action, Control, Direction, Keyboard};
-use crate::overlay::{Layer, Layers, Notes};
+use crate::input::{HINTS, Keyboard, TABLE};
+use crate::numbers::to_f32;
+use crate::overlay::{Layers, Notes};
+use crate::session::Session;
 use crate::source::{Onwards, Source};
 use egui::{Align2, Color32, Context, FontId, Frame, Margin, RichText, Stroke, Ui, vec2};
-use maze_core::{Maze, Phase};
+use maze_core::{Facing, Maze, Phase, Plane};
+use nalgebra::Vector2;
 
-const INK: Color32 = Color32::from_rgb(245, 238, 226);
+pub(super) const INK: Color32 = Color32::from_rgb(245, 238, 226);
 pub(super) const QUIET_INK: Color32 = Color32::from_rgb(200, 188, 170);
-pub(super) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
+pub(crate) const GOLD: Color32 = Color32::from_rgb(255, 205, 96);
 /// As the ghost looks.
 const GHOST: Color32 = Color32::from_rgb(120, 205, 235);
 const GLASS: Color32 = Color32::from_rgba_premultiplied(20, 15, 11, 222);
@@ -23,8 +27,9 @@ pub(super) const MARGIN: f32 = 14.0;
 /// Below this width or height (points) only the clock is shown.
 const SMALL: [f32; 2] = [520.0, 300.0];
 
-/// The list of keys in two lines, with its margins (points).
-const KEYS_HEIGHT: f32 = 74.0;
+/// The row of hints, and the clock, with their margins (points): the board is shown between them.
+const HINTS_HEIGHT: f32 = 44.0;
+const CLOCK_HEIGHT: f32 = 56.0;
 
 /// Where the method's panels begin: below the clock (points).
 const NOTES_TOP: f32 = 96.0;
@@ -37,7 +42,12 @@ pub(crate) struct Hud<'a> {
     /// The ghost's engine, and how far it is from the ball (corridors).
     pub(crate) ghost: Option<(&'static str, f64)>,
     pub(crate) labels: &'a Labels,
+    /// The row of hints.
+    pub(crate) hints: bool,
+    /// The list of all keys.
     pub(crate) help: bool,
+    /// A screen is in front: only tags and notices are shown.
+    pub(crate) is_behind: bool,
     /// News of a moment.
     pub(crate) notice: Option<&'a str>,
     /// What of the method is shown, and what is written of it.
@@ -55,8 +65,6 @@ pub(crate) struct Hud<'a> {
 #[derive(Default)]
 pub(crate) struct Labels {
     title: String,
-    /// In small letters: what the maze is like.
-    facts: String,
     /// What of the maze is not as it looks, or not as usual.
     remarks: Vec<String>,
     par_ticks: Option<u64>,
@@ -65,19 +73,20 @@ pub(crate) struct Labels {
 
 impl Labels {
     pub(crate) fn new(source: &Source, maze: &Maze) -> Self {
-        let path = maze.path_length().map(|length| format!("path {length:.0}"));
-        let difficulty = maze.metrics().map(|metrics| format!("difficulty {:.0}", metrics.difficulty));
         Self {
             title: source.title(),
-            facts: path.into_iter().chain(difficulty).collect::<Vec<_>>().join("   "),
             remarks: remarks(maze),
             par_ticks: source.par_ticks(),
             onwards: source.onwards(),
         }
     }
 
-    /// What N does.
-    fn onwards(&self) -> Option<&'static str> {
+    pub(crate) fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// What comes next.
+    pub(crate) fn onwards(&self) -> Option<&'static str> {
         match self.onwards {
             Onwards::Nothing => None,
             Onwards::NewMaze => Some("new maze"),
@@ -104,6 +113,10 @@ pub(super) fn style(context: &Context) {
     context.all_styles_mut(|style| {
         style.visuals.override_text_color = Some(INK);
         style.interaction.selectable_labels = false;
+        // About 2 % of the window's height.
+        for font in style.text_styles.values_mut() {
+            font.size = font.size.max(SMALL_LETTERS);
+        }
     });
 }
 
@@ -111,66 +124,84 @@ pub(super) fn panel() -> Frame {
     Frame::new().fill(GLASS).corner_radius(8).inner_margin(Margin::symmetric(14, 8))
 }
 
-impl Hud<'_> {
-    /// Fraction of the window's height, at its lower edge, that the list of keys takes: the maze is shown above it.
-    pub(crate) fn covered_part(&self, size_points: [f32; 2]) -> f32 {
-        if self.help && !is_small(size_points) { KEYS_HEIGHT / size_points[1] } else { 0.0 }
+impl<'a> Hud<'a> {
+    /// Of a maze that is played, with nothing beside clock and name.
+    pub(crate) fn of(
+        session: &Session,
+        labels: &'a Labels,
+        keyboard: &'a Keyboard,
+        notes: &'a Notes,
+    ) -> Self {
+        Self {
+            phase: session.phase(),
+            n_ticks: session.n_ticks(),
+            tick_s: session.tick_s(),
+            ghost: session.ghost(),
+            labels,
+            hints: true,
+            help: false,
+            is_behind: false,
+            notice: None,
+            layers: Layers::default(),
+            notes,
+            pace: None,
+            keyboard,
+            frames: None,
+        }
     }
 
     pub(crate) fn show(&self, ui: &mut Ui) {
         let screen = ui.ctx().content_rect();
-        self.notes.show(ui, NOTES_TOP);
-        self.clock(ui.ctx());
-        if self.phase == Phase::Finished {
-            self.goal_reached(ui.ctx());
-        }
+        self.notes.show_tags(ui);
         if let Some(notice) = self.notice {
             show_notice(ui.ctx(), &letters::readable(ui.ctx(), notice));
         }
+        if self.is_behind {
+            return;
+        }
+        self.notes.show_panels(ui, NOTES_TOP);
+        self.clock(ui.ctx());
         if is_small([screen.width(), screen.height()]) {
             return;
         }
         area(ui.ctx(), "title", Align2::RIGHT_TOP, vec2(-MARGIN, MARGIN), |ui| {
             let par = self.labels.par_ticks.map(|ticks| format!("par {}", clock_text(self.seconds(ticks))));
-            let facts = par.into_iter().chain([self.labels.facts.clone()]).collect::<Vec<_>>().join("   ");
             let title = letters::readable_name(ui.ctx(), &self.labels.title);
+            let title = RichText::new(title).color(QUIET_INK);
             ui.vertical(|ui| {
                 // Extended, not wrapped: egui would keep to the width of the last maze's name.
-                for text in [RichText::new(title), RichText::new(facts).size(11.0)] {
-                    let label = egui::Label::new(text.color(QUIET_INK));
-                    ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
-                }
-                for remark in &self.labels.remarks {
-                    let label = egui::Label::new(RichText::new(remark).size(11.0).color(GOLD));
-                    ui.add(label.wrap_mode(egui::TextWrapMode::Extend));
+                let lines = [title].into_iter().chain(par.map(|par| RichText::new(par).color(QUIET_INK)));
+                for text in
+                    lines.chain(self.labels.remarks.iter().map(|remark| RichText::new(remark).color(GOLD)))
+                {
+                    ui.add(egui::Label::new(text).wrap_mode(egui::TextWrapMode::Extend));
                 }
             });
         });
         if let Some(frames) = self.frames {
-            area(ui.ctx(), "frames", Align2::RIGHT_TOP, vec2(-MARGIN, 4.5 * MARGIN), |ui| frames.show(ui));
+            area(ui.ctx(), "frames", Align2::RIGHT_TOP, vec2(-MARGIN, 5.5 * MARGIN), |ui| frames.show(ui));
         }
         if self.help {
-            self.keys(ui.ctx());
+            self.all_keys(ui.ctx());
+        } else if self.hints {
+            self.hint_row(ui.ctx());
         }
     }
 
     fn seconds(&self, n_ticks: u64) -> f64 {
-        #[allow(clippy::cast_precision_loss, reason = "2^53 ticks are longer than anybody plays")]
-        let n_ticks = n_ticks as f64;
-        n_ticks * self.tick_s
+        seconds(n_ticks, self.tick_s)
     }
 
     fn clock(&self, context: &Context) {
         area(context, "clock", Align2::LEFT_TOP, vec2(MARGIN, MARGIN), |ui| {
-            ui.horizontal(|ui| {
-                ui.label(RichText::new(clock_text(self.seconds(self.n_ticks))).font(FontId::monospace(24.0)));
-                ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
-            });
+            ui.label(RichText::new(clock_text(self.seconds(self.n_ticks))).font(FontId::monospace(24.0)));
             if let Some(pace) = self.pace {
                 let pace = egui::Label::new(RichText::new(pace).color(GOLD));
                 ui.add(pace.wrap_mode(egui::TextWrapMode::Extend));
             } else if self.phase == Phase::Ready {
                 ui.label(RichText::new("tilt the board to start").color(GOLD));
+            } else if self.phase == Phase::Finished {
+                ui.label(RichText::new("goal reached").color(GOLD));
             }
             if let Some((engine, distance)) = self.ghost {
                 ui.label(RichText::new(format!("{engine}  {distance:.3} corridors away")).color(GHOST));
@@ -178,91 +209,68 @@ impl Hud<'_> {
         });
     }
 
-    fn keys(&self, context: &Context) {
-        area(context, "keys", Align2::CENTER_BOTTOM, vec2(0.0, -MARGIN), |ui| {
-            ui.set_max_width(context.content_rect().width() - 4.0 * MARGIN);
+    fn hint_row(&self, context: &Context) {
+        area(context, "hints", Align2::CENTER_BOTTOM, vec2(0.0, -0.5 * MARGIN), |ui| {
+            ui.set_max_width(context.content_rect().width() - 2.0 * MARGIN);
             ui.horizontal_wrapped(|ui| {
-                for (key, effect) in key_list(self.keyboard, self.labels.onwards()) {
-                    key_and_effect(ui, &letters::readable(ui.ctx(), &key), effect, QUIET_INK);
-                }
-            });
-            ui.horizontal_wrapped(|ui| {
-                for (number, layer) in (1..).zip(Layer::ALL) {
-                    let ink = if self.layers.has(layer) { GOLD } else { QUIET_INK };
-                    key_and_effect(ui, &format!("{number}"), layer.name(), ink);
-                }
-                for (key, effect) in method_key_list(self.keyboard) {
-                    key_and_effect(ui, &letters::readable(ui.ctx(), &key), effect, QUIET_INK);
+                key_and_effect(ui, "drag", "or");
+                for (controls, effect) in HINTS {
+                    key_and_effect(
+                        ui,
+                        &letters::readable(ui.ctx(), &self.keyboard.hint_of(controls)),
+                        effect,
+                    );
                 }
             });
         });
     }
 
-    fn goal_reached(&self, context: &Context) {
-        let frame = panel().inner_margin(Margin::symmetric(36, 22)).stroke(Stroke::new(1.5, GOLD));
-        floating(context, "goal", Align2::CENTER_CENTER, vec2(0.0, 0.0), |ui| {
-            frame.show(ui, |ui| {
-                ui.vertical_centered(|ui| {
-                    ui.label(RichText::new("Goal reached").size(30.0).color(GOLD));
-                    let time = clock_text(self.seconds(self.n_ticks));
-                    ui.label(RichText::new(time).font(FontId::monospace(40.0)));
-                    ui.label(RichText::new(format!("{} ticks", self.n_ticks)).color(QUIET_INK));
-                    if let Some(par_ticks) = self.labels.par_ticks {
-                        let under = if self.n_ticks < par_ticks { "under par" } else { "par" };
-                        let par = format!("{under} {}", clock_text(self.seconds(par_ticks)));
-                        let ink = if self.n_ticks < par_ticks { GOLD } else { QUIET_INK };
-                        ui.label(RichText::new(par).color(ink));
+    /// In two columns, over the board until H is pressed again.
+    fn all_keys(&self, context: &Context) {
+        area(context, "all keys", Align2::CENTER_CENTER, vec2(0.0, 0.0), |ui| {
+            let most = context.content_rect().height() - 4.0 * MARGIN;
+            egui::ScrollArea::vertical().max_height(most).show(ui, |ui| {
+                egui::Grid::new("all keys").num_columns(4).spacing(vec2(18.0, 4.0)).show(ui, |ui| {
+                    let half = TABLE.len().div_ceil(2);
+                    for line in 0..half {
+                        for entry in [TABLE.get(line), TABLE.get(line + half)].into_iter().flatten() {
+                            let keys = self.keyboard.names_of(entry.control).join(", ");
+                            ui.label(RichText::new(letters::readable(ui.ctx(), &keys)).color(GOLD));
+                            ui.label(RichText::new(entry.name).color(INK));
+                        }
+                        ui.end_row();
                     }
-                    ui.add_space(6.0);
-                    let onwards = self.labels.onwards();
-                    let [restart, go_on] = [Action::Restart, Action::GoOn]
-                        .map(|action| self.keyboard.letter_of(Control::Act(action)));
-                    let onwards = onwards.map(|effect| format!("      {go_on} or Enter  {effect}"));
-                    let next = format!("{restart}  play again{}", onwards.unwrap_or_default());
-                    ui.label(RichText::new(next).size(16.0));
                 });
             });
         });
     }
 }
 
-/// Keys and what they do, by the letters of the player's layout; N has something to do in some mazes only.
-fn key_list(keyboard: &Keyboard, onwards: Option<&'static str>) -> Vec<(String, &'static str)> {
-    let act = |action| keyboard.letter_of(Control::Act(action));
-    let tilt = |direction| keyboard.letter_of(Control::Tilt(direction));
-    let [away, left, towards, right] =
-        [Direction::Away, Direction::Left, Direction::Towards, Direction::Right].map(tilt);
-    let keys = [
-        ("drag".to_owned(), Some("tilt")),
-        (format!("arrows or {away} {left} {towards} {right}"), Some("tilt")),
-        (act(Action::Level), Some("level")),
-        (format!("{} / {}, wheel", act(Action::ZoomIn), act(Action::ZoomOut)), Some("zoom in / out")),
-        (act(Action::Restart), Some("restart")),
-        (act(Action::GoOn), onwards),
-        ("PgUp / PgDn".to_owned(), Some("levels")),
-        (act(Action::NextGhost), Some("ghost")),
-        (act(Action::NextQuality), Some("quality")),
-        ("F3".to_owned(), Some("frame times")),
-        ("F11".to_owned(), Some("whole screen")),
-        ("F12".to_owned(), Some("picture to a file")),
-    ];
-    keys.into_iter().filter_map(|(key, effect)| Some((key, effect?))).collect()
+/// Fractions of a window's height, at its lower and at its upper edge, that are left to what is written.
+pub(crate) fn room(size_points: [f32; 2]) -> [f32; 2] {
+    match is_small(size_points) {
+        true => [0.0; 2],
+        false => [HINTS_HEIGHT / size_points[1], CLOCK_HEIGHT / size_points[1]],
+    }
 }
 
-/// After the overlays, which are 1 to 6, in the second line.
-fn method_key_list(keyboard: &Keyboard) -> [(String, &'static str); 6] {
-    let act = |action| match keyboard.letter_of(Control::Act(action)) {
-        letter if letter == "." => "dot".to_owned(),
-        letter => letter,
-    };
-    [
-        ("0".to_owned(), "none"),
-        (format!("{}, Space", act(Action::TogglePause)), "pause"),
-        (act(Action::Step), "one tick"),
-        (format!("{} / {}", act(Action::Slower), act(Action::Faster)), "slower / faster"),
-        (act(Action::ToggleHelp), "hide keys"),
-        ("Esc".to_owned(), "quit"),
-    ]
+/// So many ticks in seconds.
+pub(crate) fn seconds(n_ticks: u64, tick_s: f64) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "2^53 ticks are longer than anybody plays")]
+    let n_ticks = n_ticks as f64;
+    n_ticks * tick_s
+}
+
+/// The walls of a maze as they are seen from above.
+pub(crate) fn plan_of(maze: &Maze) -> Plan {
+    let side = maze.bounds.size().max().max(f64::MIN_POSITIVE);
+    let middle = 0.5 * (maze.bounds.low + maze.bounds.high);
+    let at = |point: Vector2<f64>| [(point.x - middle.x) / side, (point.y - middle.y) / side].map(to_f32);
+    let planes = Facing::ALL.into_iter().flat_map(|facing| maze.planes.planes(facing));
+    let ends =
+        |plane: Plane| [plane.start, plane.end].map(|along| at(plane.facing.point(plane.offset, along)));
+    let lines = planes.map(ends).collect();
+    Plan { lines, start: at(maze.start()), goal: at(maze.goal()) }
 }
 
 /// Denser than the panels, and over them.
@@ -283,10 +291,10 @@ fn show_notice(context: &Context, text: &str) {
     painter.galley(place.min, galley, GOLD);
 }
 
-fn key_and_effect(ui: &mut Ui, key: &str, effect: &str, ink: Color32) {
-    ui.label(RichText::new(key).strong().color(GOLD).size(13.0));
-    ui.label(RichText::new(effect).color(ink).size(13.0));
-    ui.add_space(8.0);
+fn key_and_effect(ui: &mut Ui, key: &str, effect: &str) {
+    ui.label(RichText::new(key).strong().color(GOLD));
+    ui.label(RichText::new(effect).color(QUIET_INK));
+    ui.add_space(6.0);
 }
 
 pub(super) fn is_small(size_points: [f32; 2]) -> bool {
@@ -311,7 +319,7 @@ fn floating(context: &Context, name: &str, anchor: Align2, offset: egui::Vec2, a
 }
 
 /// Minutes, seconds and hundredths.
-fn clock_text(seconds: f64) -> String {
+pub(crate) fn clock_text(seconds: f64) -> String {
     // Rounded before it is split, so that 59.999 does not read 0:60.00.
     let hundredths = (seconds * 100.0).round();
     let minutes = (hundredths / 6000.0).floor();

@@ -58,7 +58,7 @@ fn font_with(fonts: &Database, letter: char, family: &FontFamily) -> Option<Font
 
 /// A text as it can be shown: letters that no font has, and those that have no shape or turn the text around them, as
 /// numbers in square brackets.
-pub(super) fn readable(context: &Context, text: &str) -> String {
+pub(crate) fn readable(context: &Context, text: &str) -> String {
     let font = FontId::new(14.0, FontFamily::Proportional);
     context.fonts_mut(|fonts| numbered(text, |letter| fonts.has_glyph(&font, letter)))
 }

@@ -3,11 +3,12 @@
 mod frames_panel;
 mod hud;
 mod letters;
+pub(crate) mod menu;
 mod notes_panel;
 
 pub(crate) use frames_panel::FramesPanel;
-pub(crate) use hud::{Hud, Labels};
-pub(crate) use letters::window_title;
+pub(crate) use hud::{GOLD, Hud, Labels, clock_text, plan_of, room, seconds};
+pub(crate) use letters::{readable, window_title};
 pub(crate) use notes_panel::covered_width;
 
 use crate::numbers::to_points;
@@ -37,16 +38,13 @@ impl Overlay {
         &mut self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
-        view: &TextureView,
-        size: [u32; 2],
-        scale: f32,
+        (view, size, scale): (&TextureView, [u32; 2], f32),
+        mut input: egui::RawInput,
         mut show: impl FnMut(&mut egui::Ui),
-    ) {
-        let [width, height] = size.map(|pixels| to_points(pixels, scale));
-        let mut input = egui::RawInput {
-            screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height))),
-            ..Default::default()
-        };
+    ) -> egui::PlatformOutput {
+        let points_per_pixel = scale * self.context.zoom_factor();
+        let [width, height] = size.map(|pixels| to_points(pixels, points_per_pixel));
+        input.screen_rect = Some(egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(width, height)));
         if let Some(viewport) = input.viewports.get_mut(&input.viewport_id) {
             viewport.native_pixels_per_point = Some(scale);
         }
@@ -65,7 +63,19 @@ impl Overlay {
         output.textures_delta.free.clear();
         let shapes = self.context.tessellate(output.shapes, output.pixels_per_point);
         let batches: Vec<_> = shapes.into_iter().filter_map(batch).collect();
-        self.painter.draw(gpu, encoder, view, size, scale, &batches);
+        self.painter.draw(gpu, encoder, view, size, output.pixels_per_point, &batches);
+        output.platform_output
+    }
+
+    pub(crate) fn context(&self) -> &egui::Context {
+        &self.context
+    }
+
+    /// Focus, scroll and zoom of another one that this one replaces.
+    pub(crate) fn continue_from(&self, other: &Self) {
+        let memory = other.context.memory(Clone::clone);
+        self.context.memory_mut(|own| *own = memory);
+        self.context.set_zoom_factor(other.context.zoom_factor());
     }
 }
 
@@ -81,7 +91,10 @@ pub(crate) fn picture(
     let mut overlay = Overlay::new(gpu, renderer.target_format());
     maze_render::capture_over(gpu, renderer, size, scene, |encoder, view| {
         if *notes != Notes::default() {
-            overlay.draw(gpu, encoder, view, size, scale, |ui| notes.show(ui, hud::MARGIN));
+            overlay.draw(gpu, encoder, (view, size, scale), egui::RawInput::default(), |ui| {
+                notes.show_tags(ui);
+                notes.show_panels(ui, hud::MARGIN);
+            });
         }
     })
 }
@@ -108,29 +121,23 @@ fn to_u32(side: usize) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine_kind::EngineKind;
     use crate::input::Keyboard;
-    use crate::overlay::Layers;
-    use maze_core::Phase;
+    use crate::session::Session;
+    use maze_core::layout;
+
+    fn maze() -> maze_core::Maze {
+        layout::recursive_backtracker(3, 2, 1).unwrap().maze(&Default::default()).unwrap()
+    }
 
     #[test]
     fn the_first_frame_shows_all_that_the_second_does() {
         let context = egui::Context::default();
         hud::style(&context);
         let (labels, notes, keyboard) = (Labels::default(), Notes::default(), Keyboard::default());
-        let hud = Hud {
-            phase: Phase::Finished,
-            n_ticks: 7,
-            tick_s: 0.03,
-            ghost: None,
-            labels: &labels,
-            help: true,
-            notice: Some("maze.txt: no such file"),
-            layers: Layers::default(),
-            notes: &notes,
-            pace: None,
-            keyboard: &keyboard,
-            frames: None,
-        };
+        let session = Session::new(maze(), EngineKind::Continuous).unwrap();
+        let hud =
+            Hud { notice: Some("maze.txt: no such file"), ..Hud::of(&session, &labels, &keyboard, &notes) };
         let frame = || {
             let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(1280.0, 720.0));
             let input = egui::RawInput { screen_rect: Some(screen), ..Default::default() };

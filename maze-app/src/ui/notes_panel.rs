@@ -22,8 +22,8 @@ pub(crate) fn covered_width(layers: Layers, size_points: [f32; 2]) -> f32 {
 }
 
 impl Notes {
-    /// `top` is where the first panel begins (points).
-    pub(crate) fn show(&self, ui: &mut Ui, top: f32) {
+    /// At their places in the picture.
+    pub(crate) fn show_tags(&self, ui: &mut Ui) {
         let screen = ui.ctx().content_rect();
         let painter = ui.painter();
         for tag in &self.tags {
@@ -34,12 +34,24 @@ impl Notes {
             painter.rect_filled(place.expand2(vec2(5.0, 2.0)), 4.0, Color32::from_black_alpha(170));
             painter.galley(place.min, galley, Color32::WHITE);
         }
+    }
+
+    /// On the left; `top` is where the first one begins (points).
+    pub(crate) fn show_panels(&self, ui: &mut Ui, top: f32) {
+        let screen = ui.ctx().content_rect();
         if self.panels.is_empty() || is_small([screen.width(), screen.height()]) {
             return;
         }
         // Not an area of egui's, which measures in its first frame and shows itself in the second: a picture has but one.
         let place = egui::Rect::from_min_max(screen.min + vec2(MARGIN, top), screen.max);
         ui.scope_builder(egui::UiBuilder::new().max_rect(place), |ui| {
+            self.show_panels_in(ui);
+        });
+    }
+
+    /// One below the other.
+    pub(crate) fn show_panels_in(&self, ui: &mut Ui) {
+        ui.scope(|ui| {
             ui.spacing_mut().item_spacing.y = 2.0;
             for note in &self.panels {
                 panel().fill(DENSE_GLASS).show(ui, |ui| {

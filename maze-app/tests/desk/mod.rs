@@ -139,6 +139,8 @@ impl Session {
                 .current_dir(directory.path())
                 .env("DISPLAY", &screen.display)
                 .env_remove("WAYLAND_DISPLAY")
+                // Settings of its own.
+                .env("XDG_CONFIG_HOME", directory.path())
                 .env("XDG_RUNTIME_DIR", directory.path()),
         );
         let mut session = Self { game, screen, log, n_before_input: 0, directory, window: String::new() };
@@ -187,6 +189,11 @@ impl Session {
     pub fn expect_alive(&mut self, what: &str) {
         let tick = self.last().tick;
         self.wait_for(what, |state| tick + 5 <= state.tick);
+    }
+
+    /// Closes the window.
+    pub fn close(&mut self) {
+        self.tool("wmctrl", &["-c", "Maze"]);
     }
 
     pub fn exit_status(&mut self) -> ExitStatus {

@@ -1,30 +1,30 @@
-//! The window: events in, frames out; nothing else.
+//! The window: events in, frames out, orders of the game carried out.
 
 use super::graphics::{Drawn, Graphics};
 use super::idle::Idle;
+use super::look::Look;
+use super::outputs::Outputs;
 use super::presence::Presence;
+use super::settings_file::SettingsFile;
 use super::watch::Watch;
 use super::{display, layout};
-use crate::clock::Clock;
-use crate::demo::Demo;
 use crate::failure::Failure;
 use crate::frame_log::{FrameLog, Parts, Stopwatch};
-use crate::input::{Action, Keyboard, TiltControl};
+use crate::game::{Board, Extras, Game, Order, Role};
 use crate::numbers::to_f32;
-use crate::overlay::{self, Layers, Notes};
-use crate::platform::native::keeper::{Keeper, KeptFrames};
+use crate::overlay::{self, Notes};
+use crate::platform::native::files;
 use crate::platform::native::rescue::{self, OpenWindow};
-use crate::platform::native::state_log::{State, StateLog};
-use crate::quality::QualityChoice;
-use crate::session::Session;
-use crate::setup::{Setup, Unfocused};
-use crate::slowness::Slowness;
+use crate::session::Pose;
+use crate::settings::Settings;
+use crate::setup::{Options, Setup, Unfocused};
 use crate::source::Source;
-use crate::ui::{self, FramesPanel, Hud, Labels};
-use crate::view::{self, View};
-use maze_core::{Event, Maze, Phase};
-use maze_render::{Quality, TextureSet};
-use std::path::PathBuf;
+use crate::ui::{self, FramesPanel};
+use crate::view;
+use maze_core::Event;
+use maze_render::{Camera, Quality, Scene};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
 use winit::dpi::PhysicalPosition;
@@ -44,135 +44,94 @@ const HIDDEN_WAKE: Duration = Duration::from_millis(100);
 /// How long a message stays on screen.
 const NOTICE_TIME: Duration = Duration::from_secs(10);
 
-/// What `maze-app frames` does differently from `maze-app play`.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Options {
-    /// The autopilot plays, round after round.
-    pub(crate) demo: bool,
-    /// As many frames as the window takes.
-    pub(crate) uncapped: bool,
-    /// Of the window (pixels).
-    pub(crate) size: Option<[u32; 2]>,
-    /// How long frames are remembered (s).
-    pub(crate) keep_s: f64,
+/// Settings are written so long after the last change, and at the end.
+const SAVE_AFTER: Duration = Duration::from_millis(500);
+
+/// When frames were, and when they are due.
+struct Timing {
+    opened: Instant,
+    first_frame: Option<Instant>,
+    last_frame: Instant,
+    next_frame: Instant,
+    exit_after: Option<Duration>,
 }
 
-impl Default for Options {
-    fn default() -> Self {
-        Self { demo: false, uncapped: false, size: None, keep_s: 10.0 }
-    }
+/// Settings that hold, and the file that keeps them.
+struct Kept {
+    file: SettingsFile,
+    applied: Settings,
+    changed: Option<Instant>,
 }
 
 /// Everything that lives as long as the window.
 pub(crate) struct App {
-    pub(super) game: Session,
-    pub(super) clock: Clock,
-    pub(super) keyboard: Keyboard,
-    pub(super) control: TiltControl,
-    pub(super) presence: Presence,
-    pub(super) view: View,
-    pub(super) source: Source,
-    pub(super) labels: Labels,
-    pub(super) textures: TextureSet,
-    /// Where they come from whatever the maze.
-    pub(super) textures_flag: Option<PathBuf>,
-    /// Where to write it; opened with the window, so that nothing is lost when there is none.
-    pub(super) state_log_path: Option<PathBuf>,
-    pub(super) state_log: Option<StateLog>,
-    /// Keeps the run to be written; nothing any more when one that reached the goal stands there.
-    pub(super) keeper: Option<Keeper>,
-    pub(super) exit_after: Option<Duration>,
-    pub(super) quality: QualityChoice,
-    pub(super) options: Options,
-    /// Plays in the player's place.
-    pub(super) demo: Option<Demo>,
+    pub(super) game: Game,
     pub(super) graphics: Option<Graphics>,
-    /// Who drew the last frame: adapter, quality, size.
-    pub(super) drawn_by: Option<(String, Quality, [u32; 2])>,
-    pub(super) frame_log: FrameLog,
-    /// The frames once more, to be written when the program is ended from outside.
-    pub(super) kept_frames: Option<KeptFrames>,
-    pub(super) shows_frames: bool,
-    pub(super) slowness: Slowness,
-    /// Whether the quality was chosen by the user, and stays.
-    pub(super) quality_is_chosen: bool,
+    pub(super) look: Look,
+    pub(super) presence: Presence,
+    pub(super) outputs: Outputs,
     pub(super) idle: Idle,
+    kept: Kept,
+    timing: Timing,
+    options: Options,
+    /// Whether a flag says what happens without the keyboard.
+    unfocused_flag: bool,
     /// Where it was last, if anywhere.
     pub(super) cursor: Option<PhysicalPosition<f64>>,
-    pub(super) help: bool,
-    pub(super) layers: Layers,
     /// News of a moment, such as why a dropped file was not loaded, and when.
-    pub(super) notice: Option<(String, Instant)>,
-    pub(super) n_ticks: u64,
-    pub(super) max_tilt_rad: f32,
-    pub(super) opened: Instant,
-    pub(super) first_frame: Option<Instant>,
-    pub(super) last_frame: Instant,
-    pub(super) next_frame: Instant,
-    pub(super) failure: Option<Failure>,
+    notice: Option<(String, Instant)>,
+    /// The desktop's window for choosing a file, while it is open.
+    dialog: Option<Receiver<Option<PathBuf>>>,
+    failure: Option<Failure>,
 }
 
 impl App {
-    pub(crate) fn new(setup: Setup, options: Options, maze: Maze) -> Result<Self, Failure> {
-        let game = Session::new(maze, setup.engine)?;
-        let demo = options.demo.then(|| Demo::new(&game, setup.max_tilt_rad)).transpose()?;
+    /// `told` is shown at first, such as why no settings were read.
+    pub(crate) fn new(
+        setup: Setup,
+        options: Options,
+        board: Board,
+        file: SettingsFile,
+        told: Option<String>,
+    ) -> Result<Self, Failure> {
+        let Setup { settings, rules, first, look, record, state_log, csv, exit_after, unfocused } = setup;
         // What ends by itself, or plays by itself, does not wait for the player unless a flag asks for it.
-        let waits = demo.is_none() && setup.exit_after.is_none();
+        let waits = !board.is_demo() && exit_after.is_none() && settings.game.pause_without_focus;
         let usual = if waits { Unfocused::Pause } else { Unfocused::Run };
-        let unfocused = setup.unfocused.unwrap_or(usual);
+        let game = Game::new(board, first, settings, rules);
         let now = Instant::now();
-        let keeper =
-            setup.record.as_deref().map(|path| Keeper::new(path, &game, &setup.source)).transpose()?;
+        let outputs = Outputs::new(record, state_log, csv, &game.board, options.keep_s)?;
         Ok(Self {
-            clock: Clock::new(game.tick_s()),
-            keyboard: Keyboard::default(),
-            control: TiltControl::new(setup.max_tilt_rad),
-            presence: Presence::new(unfocused),
-            view: View::default(),
-            labels: Labels::new(&setup.source, game.maze()),
-            game,
-            source: setup.source,
-            textures: setup.textures,
-            textures_flag: setup.textures_flag,
-            state_log_path: setup.state_log,
-            state_log: None,
-            keeper,
-            exit_after: setup.exit_after,
-            quality: setup.quality,
-            options,
-            demo,
             graphics: None,
-            drawn_by: None,
-            frame_log: FrameLog::new(options.keep_s),
-            kept_frames: setup.csv.map(KeptFrames::new),
-            shows_frames: false,
-            slowness: Slowness::default(),
-            quality_is_chosen: setup.quality.is_chosen(),
+            look,
+            presence: Presence::new(unfocused.unwrap_or(usual)),
+            outputs,
             idle: Idle::default(),
+            kept: Kept { file, applied: game.settings.clone(), changed: None },
+            timing: Timing { opened: now, first_frame: None, last_frame: now, next_frame: now, exit_after },
+            options,
+            unfocused_flag: unfocused.is_some() || exit_after.is_some() || game.board.is_demo(),
             cursor: None,
-            help: true,
-            layers: Layers::default(),
-            notice: None,
-            n_ticks: 0,
-            max_tilt_rad: to_f32(setup.max_tilt_rad),
-            opened: now,
-            first_frame: None,
-            last_frame: now,
-            next_frame: now,
+            notice: told.map(|told| (told, now)),
+            dialog: None,
             failure: None,
+            game,
         })
     }
 
     /// Until the window closes.
     pub(crate) fn run(mut self, event_loop: EventLoop<()>) -> Result<Self, Failure> {
         let open = OpenWindow::new();
-        if let Some(time) = self.exit_after {
+        if let Some(time) = self.timing.exit_after {
             rescue::end_after(time);
         }
         let ran = display::guarded(|| event_loop.run_app(&mut self));
         drop(open);
-        // Whatever ended the game, what was played is written first.
-        let written = self.write_recording();
+        // Whatever ended the game, what was played and chosen is written first.
+        let written = self.outputs.write_recording();
+        if let Some(reason) = self.kept.file.save(&self.game.settings) {
+            crate::failure::note(&reason);
+        }
         ran?.map_err(Failure::bad_input)?;
         written?;
         match self.failure.take() {
@@ -183,20 +142,16 @@ impl App {
 
     /// Adapter, quality and size of the last frame.
     pub(crate) fn drawn_by(&self) -> Option<(String, Quality, [u32; 2])> {
-        self.drawn_by.clone()
+        self.outputs.drawn_by.clone()
     }
 
     /// When the first frame had been drawn.
     pub(crate) fn first_frame(&self) -> Option<Instant> {
-        self.first_frame
+        self.timing.first_frame
     }
 
     pub(crate) fn into_frame_log(self) -> FrameLog {
-        self.frame_log
-    }
-
-    fn write_recording(&self) -> Result<(), Failure> {
-        self.keeper.as_ref().map_or(Ok(()), Keeper::write)
+        self.outputs.frame_log
     }
 
     fn end_with(&mut self, event_loop: &ActiveEventLoop, failure: Failure) {
@@ -204,9 +159,16 @@ impl App {
         event_loop.exit();
     }
 
+    pub(super) fn notify(&mut self, notice: String) {
+        self.notice = Some((notice, Instant::now()));
+        self.idle.wake();
+    }
+
     pub(super) fn load_into_graphics(&mut self) -> Result<(), Failure> {
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
-        graphics.set_maze(self.game.maze(), &format!("Maze  {}", ui::window_title(&self.source.title())))
+        let title = ui::window_title(self.game.board.labels.title());
+        let title = if self.game.board.is_played() { format!("Maze  {title}") } else { "Maze".to_owned() };
+        graphics.set_maze(self.game.board.session.maze(), &title)
     }
 
     fn open_window(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
@@ -217,147 +179,209 @@ impl App {
             .map_err(|error| Failure::bad_input(format!("cannot open a window: {error}")))?;
         self.presence.watch(Watch::new(&window));
         if self.presence.is_on_x11() {
-            self.keyboard.set_layouts(layout::read(), None);
+            self.game.keyboard.set_layouts(layout::read(), None);
         }
-        self.graphics = Some(Graphics::new(event_loop, window, &self.textures, self.quality)?);
+        let graphics = Graphics::new(event_loop, window, &self.look.textures, self.look.quality)?;
+        self.graphics = Some(graphics);
+        self.apply_video();
         self.load_into_graphics()?;
-        self.state_log = self.state_log_path.as_deref().map(StateLog::create).transpose()?;
-        Ok(())
+        self.outputs.open()
     }
 
-    pub(super) fn act(&mut self, event_loop: &ActiveEventLoop, action: Action) -> Result<(), Failure> {
-        match action {
-            Action::ZoomIn => self.view.zoom_by_notches(1.0),
-            Action::ZoomOut => self.view.zoom_by_notches(-1.0),
-            Action::Level => self.control.level(),
-            Action::ToggleHelp => self.help = !self.help,
-            Action::ToggleFrames => self.shows_frames = !self.shows_frames,
-            Action::ToggleLayer(layer) => self.layers.toggle(layer),
-            Action::HideLayers => self.layers = Layers::default(),
-            Action::TogglePause => self.clock.toggle_pause(),
-            Action::Step => self.clock.step(),
-            Action::Slower => self.clock.slower(),
-            Action::Faster => self.clock.faster(),
-            Action::ToggleFullscreen => self.graphics.iter().for_each(Graphics::toggle_fullscreen),
-            Action::NextGhost => self.game.next_ghost()?,
-            Action::NextQuality => self.next_quality()?,
-            Action::Screenshot => self.screenshot(),
-            Action::Quit => event_loop.exit(),
-            Action::Restart => {
-                self.control.level();
-                self.game.restart()?;
-                self.keep_anew()?;
-            }
-            Action::GoOn => {
-                let changed = self.source.go_on()?;
-                self.load(changed)?;
-            }
-            Action::GoOnFromGoal => {
-                if self.game.phase() == Phase::Finished {
-                    self.act(event_loop, Action::GoOn)?;
-                }
-            }
-            Action::NextLevel | Action::PreviousLevel => {
-                let changed = self.source.change_level(action == Action::NextLevel)?;
-                self.load(changed)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Loads the source's maze when it has changed.
-    pub(super) fn load(&mut self, changed: bool) -> Result<(), Failure> {
-        if changed {
-            self.game = self.game.on(self.source.load()?)?;
-            self.cover_with(self.textures_of(&self.source)?);
-            self.load_into_graphics()?;
-            self.begin();
-            self.keep_anew()?;
-        }
-        Ok(())
-    }
-
-    /// The game has restarted.
-    fn keep_anew(&mut self) -> Result<(), Failure> {
-        self.keeper.as_mut().map_or(Ok(()), |keeper| keeper.begin(&self.game, &self.source))
-    }
-
-    /// Another maze is there: level, all of it in view.
-    fn begin(&mut self) {
-        self.labels = Labels::new(&self.source, self.game.maze());
-        self.control.level();
-        self.view.show_all();
-        self.notice = None;
+    /// Does what the game asks for.
+    pub(super) fn obey(&mut self, event_loop: &ActiveEventLoop, order: Option<Order>) -> Result<(), Failure> {
         self.idle.wake();
+        match order {
+            None => {}
+            Some(Order::Load(source, role)) => self.load(source, role)?,
+            Some(Order::ShowBoard) => self.show_board()?,
+            Some(Order::ChooseFile) => self.choose_file(),
+            Some(Order::SaveRecording) => self.save_recording(),
+            Some(Order::Screenshot) => self.screenshot(),
+            Some(Order::NextQuality) => self.next_quality(),
+            Some(Order::Restarted) => self.outputs.keep_anew(&self.game.board)?,
+            Some(Order::Quit) => event_loop.exit(),
+        }
+        Ok(())
     }
 
-    /// Plays a file dropped on the window. One that is no maze is reported, and the game continues.
-    pub(super) fn drop_file(&mut self, path: PathBuf) -> Result<(), Failure> {
-        let source = self.source.of_file(path);
-        let game = source.load().and_then(|maze| self.game.on(maze));
-        match game.and_then(|game| Ok((game, self.textures_of(&source)?))) {
-            Ok((game, textures)) => {
-                (self.game, self.source) = (game, source);
+    /// Puts another maze on the board. One that cannot be loaded is reported, and what is there stays.
+    pub(super) fn load(&mut self, source: Source, role: Role) -> Result<(), Failure> {
+        let board = source.load().and_then(|maze| Board::new(maze, source, role, self.game.rules()));
+        let ready = board.and_then(|board| Ok((self.look.textures_of(&board.source)?, board)));
+        match ready {
+            Ok((textures, board)) => {
+                self.game.put(board)?;
                 self.cover_with(textures);
-                self.load_into_graphics()?;
-                self.begin();
-                self.keep_anew()?;
+                self.notice = None;
+                self.show_board()?;
             }
-            Err(failure) => self.notice = Some((failure.to_string(), Instant::now())),
+            Err(failure) if self.game.screens.is_playing() => self.notify(failure.to_string()),
+            Err(failure) => self.game.trouble = Some(failure.to_string()),
         }
         // The time it took to load is not played.
-        self.last_frame = Instant::now();
+        self.timing.last_frame = Instant::now();
         Ok(())
+    }
+
+    fn show_board(&mut self) -> Result<(), Failure> {
+        self.load_into_graphics()?;
+        self.idle.wake();
+        self.outputs.keep_anew(&self.game.board)
+    }
+
+    /// With the desktop's own window, on a thread of its own: it may stay open for long.
+    fn choose_file(&mut self) {
+        let (sender, receiver) = channel();
+        let ask = move || {
+            let endings = ["obj", "svg", "txt", "png", "bmp"];
+            let chosen =
+                rfd::FileDialog::new().set_title("Open a maze").add_filter("mazes", &endings).pick_file();
+            // The game may have ended.
+            let _ = sender.send(chosen);
+        };
+        match std::thread::Builder::new().name("choose a file".to_owned()).spawn(ask) {
+            Ok(_) => self.dialog = Some(receiver),
+            Err(error) => {
+                self.game.trouble = Some(format!("no window to choose a file: {error}; type its path"))
+            }
+        }
+    }
+
+    /// What was chosen in the desktop's window, if it has been closed.
+    fn take_chosen(&mut self) -> Result<(), Failure> {
+        let Some(answer) = self.dialog.as_ref().map(|dialog| dialog.try_recv()) else { return Ok(()) };
+        match answer {
+            Err(std::sync::mpsc::TryRecvError::Empty) => {}
+            Ok(Some(path)) => {
+                self.dialog = None;
+                self.load(self.game.board.source.of_file(path), Role::Play)?;
+            }
+            Ok(None) | Err(_) => {
+                self.dialog = None;
+                self.game.trouble =
+                    Some("no file was chosen; a path can be typed, or a file dropped".to_owned());
+                self.idle.wake();
+            }
+        }
+        Ok(())
+    }
+
+    fn save_recording(&mut self) {
+        let board = &self.game.board;
+        let saved = board
+            .source
+            .words()
+            .and_then(|words| board.session.recording(words))
+            .and_then(|run| files::write_numbered(Path::new(""), "run", "maze", &run.to_bytes()));
+        match saved {
+            Ok(path) => self.game.saved(path.display().to_string()),
+            Err(failure) => self.game.trouble = Some(failure.to_string()),
+        }
+    }
+
+    /// Takes over what has changed in the settings since the last frame.
+    fn apply_settings(&mut self, now: Instant) {
+        if self.game.settings != self.kept.applied {
+            self.game.settings_changed();
+            let settings = self.game.settings.clone();
+            if settings.video.quality != self.kept.applied.video.quality {
+                self.look.quality = settings.video.quality.into();
+            }
+            let pause = settings.game.pause_without_focus;
+            if pause != self.kept.applied.game.pause_without_focus && !self.unfocused_flag {
+                self.presence.set(if pause { Unfocused::Pause } else { Unfocused::Run });
+            }
+            let is_video_new = settings.video != self.kept.applied.video;
+            self.kept.applied = settings;
+            self.kept.changed = Some(now);
+            if is_video_new {
+                self.apply_video();
+            }
+            self.idle.wake();
+        }
+        if self.kept.changed.is_some_and(|changed| SAVE_AFTER < now - changed) {
+            self.kept.changed = None;
+            if let Some(reason) = self.kept.file.save(&self.game.settings) {
+                self.notify(reason);
+            }
+        }
+    }
+
+    fn apply_video(&mut self) {
+        let video = &self.game.settings.video;
+        let Some(graphics) = &mut self.graphics else { return };
+        graphics.set_vsync(video.vsync && !self.options.uncapped);
+        graphics.set_fullscreen(video.fullscreen);
+        let quality = graphics.quality_of(self.look.quality);
+        if quality != graphics.quality() && self.look.is_wanted(self.look.quality) {
+            self.set_quality(quality);
+        }
     }
 
     fn simulate(&mut self, elapsed: Duration) -> Result<(), Failure> {
-        for _ in 0..self.clock.advance(elapsed.as_secs_f64()) {
-            self.control.tick(self.game.tick_s());
-            let tilt = match &mut self.demo {
-                Some(demo) => demo.tilt(&mut self.game)?,
-                None => self.control.tilt(),
-            };
-            // The other events are for sound; the screen reads the game's phase.
-            let events = self.game.tick(tilt)?;
-            if events.iter().any(|event| matches!(event, Event::Finished(_))) {
-                if let Some(keeper) = &mut self.keeper {
-                    keeper.add(&self.game);
-                }
-                self.write_recording()?;
-                self.keeper = None;
+        for _ in 0..self.game.advance(elapsed) {
+            let events = self.game.tick()?;
+            if !self.game.board.is_played() {
+                continue;
             }
-            self.n_ticks += 1;
-            self.log_state()?;
-        }
-        if let Some(keeper) = &mut self.keeper {
-            keeper.add(&self.game);
+            // The other events are for sound; the screen reads the game's phase.
+            let is_finished = events.iter().any(|event| matches!(event, Event::Finished(_)));
+            self.outputs.note_tick(&self.game, is_finished)?;
         }
         Ok(())
     }
 
-    fn log_state(&mut self) -> Result<(), Failure> {
-        let Some(log) = &mut self.state_log else { return Ok(()) };
-        let orientation = self.game.tilt().world_from_maze();
-        let ball = self.game.ball();
-        log.write(&State {
-            tick: self.n_ticks,
-            orientation: [orientation.w, orientation.i, orientation.j, orientation.k],
-            position: ball.position.into(),
-            velocity: ball.velocity.into(),
-            camera_distance: self.view.camera().distance,
-            phase: self.game.phase().name(),
-            clock_ticks: self.game.n_ticks(),
-        })
+    /// A view of the whole board that leaves room at the lower and upper edge, and what it leaves at the side.
+    fn whole(&self, graphics: &Graphics, [below, above]: [f32; 2]) -> (Camera, f32) {
+        let covered = self.game.covered_width(graphics.size_points());
+        let max_tilt_rad = to_f32(self.game.rules().max_tilt_rad);
+        let half_size = self.game.board.session.half_size();
+        let whole = view::fitted(half_size, graphics.aspect(), max_tilt_rad, covered.abs());
+        (view::with_room(whole, below, above), covered)
     }
 
-    fn frame(&mut self) -> Result<(), Failure> {
+    fn pose(&self) -> Pose {
+        let game = &self.game;
+        let held = game.control.is_dragged().then_some(&game.control).filter(|_| game.screens.is_playing());
+        game.board.session.pose(game.clock.alpha(), held)
+    }
+
+    /// Moves the view on.
+    fn look_on(&mut self, elapsed: Duration) {
+        let Some(graphics) = &self.graphics else { return };
+        let (whole, _) = self.whole(graphics, ui::room(graphics.size_points()));
+        let ball = self.pose().ball_in_world().cast();
+        let (nearest, slides) = (self.game.nearest_zoom(), !self.game.settings.video.reduced_motion);
+        self.game.view.update(elapsed, whole, ball, nearest, slides);
+    }
+
+    /// Maze and method as they are now, with room at the lower and upper edge.
+    pub(super) fn picture(&self, room: [f32; 2]) -> Option<(Scene, Notes)> {
+        let graphics = self.graphics.as_ref()?;
+        let session = &self.game.board.session;
+        let pose = self.pose();
+        let (whole, covered) = self.whole(graphics, room);
+        let camera = self.game.view.look(whole, pose.ball_in_world().cast());
+        let mut scene = session.scene(&pose, view::beside(camera, graphics.aspect(), covered));
+        let notes = overlay::add(self.game.layers, session, &mut scene, graphics.size());
+        if self.game.settings.accessibility.high_contrast {
+            overlay::mark(session, &pose, &mut scene);
+        }
+        Some((scene, notes))
+    }
+
+    fn frame(&mut self, event_loop: &ActiveEventLoop) -> Result<(), Failure> {
         let watch = Stopwatch::start();
         let now = Instant::now();
+        self.take_chosen()?;
+        self.apply_settings(now);
         // The time for which the program was stopped is not played.
-        let elapsed = if rescue::was_stopped() { Duration::ZERO } else { now - self.last_frame };
-        self.last_frame = now;
-        let Some(graphics) = &self.graphics else { return Ok(()) };
-        let (aspect, size_points) = (graphics.aspect(), graphics.size_points());
+        let elapsed = if rescue::was_stopped() { Duration::ZERO } else { now - self.timing.last_frame };
+        self.timing.last_frame = now;
+        let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        graphics.set_zoom(&self.game.settings);
+        let size_points = graphics.size_points();
         let (adapter, quality, size) = (graphics.adapter(), graphics.quality(), graphics.size());
         let waits = self.presence.waits();
         self.simulate(if waits { Duration::ZERO } else { elapsed })?;
@@ -365,66 +389,64 @@ impl App {
         self.keep_up(elapsed)?;
         let pace = self.pace();
         let watch = Stopwatch::start();
+        self.look_on(elapsed);
+        let Some((scene, notes)) = self.picture(ui::room(size_points)) else { return Ok(()) };
+        let game = &mut self.game;
         let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
-        let hud = Hud {
-            phase: self.game.phase(),
-            n_ticks: self.game.n_ticks(),
-            tick_s: self.game.tick_s(),
-            ghost: self.game.ghost(),
-            labels: &self.labels,
-            help: self.help,
+        let frames =
+            FramesPanel { log: &self.outputs.frame_log, quality: quality.name(), size, adapter: &adapter };
+        let extras = Extras {
             notice: notice.map(|(text, _)| text.as_str()),
-            layers: self.layers,
-            notes: &Notes::default(),
+            notes: &notes,
             pace: pace.as_deref(),
-            keyboard: &self.keyboard,
-            frames: self.shows_frames.then_some(FramesPanel {
-                log: &self.frame_log,
-                quality: quality.name(),
-                size,
-                adapter: &adapter,
-            }),
+            frames: game.shows_frames.then_some(frames),
         };
-        let held = self.control.is_dragged().then_some(&self.control);
-        let pose = self.game.pose(self.clock.alpha(), held);
-        let left = ui::covered_width(self.layers, size_points);
-        let whole = view::fitted(self.game.half_size(), aspect, self.max_tilt_rad, left);
-        let whole = view::with_room_below(whole, hud.covered_part(size_points));
-        self.view.update(elapsed, whole, pose.ball_in_world().cast());
-        let mut scene = self.game.scene(&pose, view::beside(self.view.camera(), aspect, left));
-        let notes = overlay::add(self.layers, &self.game, &mut scene, size);
-        let hud = Hud { notes: &notes, ..hud };
-        if self.idle.may_skip(now, &scene, &hud, size) {
+        if self.idle.may_skip(now, &scene, &game.hud(&extras), size) {
             return Ok(());
         }
         let prepare = watch.ms();
-        let number = self.frame_log.next_number();
-        let Some(graphics) = &mut self.graphics else { return Ok(()) };
-        match graphics.draw(&scene, &hud, number)? {
+        let number = self.outputs.frame_log.next_number();
+        let mut chosen = None;
+        let drawn = graphics_draw(&mut self.graphics, (&scene, number), |ui| {
+            game.hud(&extras).show(ui);
+            chosen = chosen.take().or(game.draw_screen(ui, &notes));
+        })?;
+        match drawn {
             Drawn::Shown { encode, present } => {
-                self.frame_log.push(Parts { simulate, encode: prepare + encode, present });
-                if let Some(kept) = &self.kept_frames {
-                    kept.add(&self.frame_log);
+                self.outputs.push_frame(Parts { simulate, encode: prepare + encode, present });
+                if let Some(graphics) = &mut self.graphics {
+                    graphics.tell_times(&mut self.outputs.frame_log);
+                    if self.timing.first_frame.is_none() {
+                        graphics.wait();
+                        self.timing.first_frame = Some(Instant::now());
+                    }
                 }
-                graphics.tell_times(&mut self.frame_log);
-                if self.first_frame.is_none() {
-                    graphics.wait();
-                    self.first_frame = Some(Instant::now());
-                }
-                self.drawn_by = Some((adapter, quality, size));
+                self.outputs.drawn_by = Some((adapter, quality, size));
             }
             Drawn::Hidden => {}
             Drawn::DeviceLost => {
                 // The old device must be gone before a new one may have the window.
-                self.graphics = self.graphics.take().map(|lost| lost.rebuilt(&self.textures)).transpose()?;
+                let lost = self.graphics.take();
+                self.graphics = lost.map(|lost| lost.rebuilt(&self.look.textures)).transpose()?;
                 self.load_into_graphics()?;
             }
+        }
+        if let Some(choice) = chosen {
+            let order = self.game.choose(choice)?;
+            self.obey(event_loop, order)?;
         }
         Ok(())
     }
 
     fn handle(&mut self, event_loop: &ActiveEventLoop, event: WindowEvent) -> Result<(), Failure> {
+        let is_playing = self.game.screens.is_playing();
         let Some(graphics) = &mut self.graphics else { return Ok(()) };
+        if !matches!(event, WindowEvent::KeyboardInput { .. } | WindowEvent::RedrawRequested) {
+            graphics.feed(&event);
+            if !is_playing {
+                self.idle.wake();
+            }
+        }
         match event {
             WindowEvent::CloseRequested => event_loop.exit(),
             WindowEvent::Destroyed => {
@@ -443,28 +465,37 @@ impl App {
             WindowEvent::Occluded(hidden) => {
                 self.presence.occlude(hidden);
                 // The time behind other windows is not played.
-                self.last_frame = Instant::now();
+                self.timing.last_frame = Instant::now();
             }
             WindowEvent::Focused(has_it) => self.focus(has_it),
-            WindowEvent::ModifiersChanged(modifiers) => self.keyboard.set_modifiers(modifiers.state()),
-            WindowEvent::KeyboardInput { event, is_synthetic, .. } => {
-                self.key(event_loop, &event, is_synthetic)?;
-            }
+            WindowEvent::ModifiersChanged(modifiers) => self.game.keyboard.set_modifiers(modifiers.state()),
+            WindowEvent::KeyboardInput { .. } => self.key(event_loop, &event)?,
             WindowEvent::CursorMoved { position, .. } => self.pointer(position),
             WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => match state {
-                ElementState::Released => self.control.end_drag(),
-                ElementState::Pressed => self.control.begin_drag(),
+                ElementState::Released => self.game.control.end_drag(),
+                ElementState::Pressed if is_playing => self.game.control.begin_drag(),
+                ElementState::Pressed => {}
             },
-            WindowEvent::MouseWheel { delta, .. } => self.view.zoom_by_notches(match delta {
-                MouseScrollDelta::LineDelta(_, notches) => f64::from(notches),
-                MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
-            }),
-            WindowEvent::DroppedFile(path) => self.drop_file(path)?,
-            WindowEvent::RedrawRequested => self.frame()?,
+            WindowEvent::MouseWheel { delta, .. } if is_playing => {
+                self.game.view.zoom_by_notches(match delta {
+                    MouseScrollDelta::LineDelta(_, notches) => f64::from(notches),
+                    MouseScrollDelta::PixelDelta(pixels) => pixels.y / PIXELS_PER_NOTCH,
+                });
+            }
+            WindowEvent::DroppedFile(path) => self.load(self.game.board.source.of_file(path), Role::Play)?,
+            WindowEvent::RedrawRequested => self.frame(event_loop)?,
             _ => {}
         }
         Ok(())
     }
+}
+
+fn graphics_draw(
+    graphics: &mut Option<Graphics>,
+    scene: (&maze_render::Scene, u64),
+    show: impl FnMut(&mut egui::Ui),
+) -> Result<Drawn, Failure> {
+    graphics.as_mut().map_or(Ok(Drawn::Hidden), |graphics| graphics.draw(scene, show))
 }
 
 impl ApplicationHandler for App {
@@ -475,8 +506,8 @@ impl ApplicationHandler for App {
         if let Err(failure) = self.open_window(event_loop) {
             return self.end_with(event_loop, failure);
         }
-        self.opened = Instant::now();
-        self.last_frame = self.opened;
+        self.timing.opened = Instant::now();
+        self.timing.last_frame = self.timing.opened;
     }
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
@@ -486,8 +517,8 @@ impl ApplicationHandler for App {
     }
 
     fn new_events(&mut self, event_loop: &ActiveEventLoop, _: StartCause) {
-        let begun = self.first_frame.unwrap_or(self.opened);
-        if self.exit_after.is_some_and(|exit_after| exit_after <= begun.elapsed()) {
+        let begun = self.timing.first_frame.unwrap_or(self.timing.opened);
+        if self.timing.exit_after.is_some_and(|exit_after| exit_after <= begun.elapsed()) {
             event_loop.exit();
         }
     }
@@ -497,17 +528,21 @@ impl ApplicationHandler for App {
         let Some(graphics) = &self.graphics else { return };
         let now = Instant::now();
         if self.presence.is_hidden() || !graphics.has_area() {
-            self.last_frame = now;
+            self.timing.last_frame = now;
             return event_loop.set_control_flow(ControlFlow::WaitUntil(now + HIDDEN_WAKE));
         }
-        if self.next_frame <= now {
+        if self.timing.next_frame <= now {
             // Kept to a fixed rhythm. A frame that came late is made up for, by one frame at most: timers and a busy
             // machine are late all the time, and after a pause there must be no burst.
-            let frame_time = if self.options.uncapped { Duration::ZERO } else { graphics.frame_time() };
+            let frame_time = match (self.options.uncapped, self.game.settings.video.frame_cap) {
+                (true, _) => Duration::ZERO,
+                (false, 0) => graphics.frame_time(),
+                (false, frames_per_s) => Duration::from_secs(1) / frames_per_s,
+            };
             let earliest = now.checked_sub(frame_time).unwrap_or(now);
-            self.next_frame = (self.next_frame + frame_time).max(earliest);
+            self.timing.next_frame = (self.timing.next_frame + frame_time).max(earliest);
             graphics.request_redraw();
         }
-        event_loop.set_control_flow(ControlFlow::WaitUntil(self.next_frame));
+        event_loop.set_control_flow(ControlFlow::WaitUntil(self.timing.next_frame));
     }
 }

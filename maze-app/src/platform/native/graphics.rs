@@ -7,7 +7,8 @@ use crate::frame_log::{FrameLog, Stopwatch};
 use crate::numbers::to_f32;
 use crate::overlay::Notes;
 use crate::quality::QualityChoice;
-use crate::ui::{self, Hud};
+use crate::settings::Settings;
+use crate::ui;
 use image::RgbaImage;
 use maze_core::Maze;
 use maze_render::{Acquired, Gpu, Quality, Scene, TextureSet, WindowTarget};
@@ -42,6 +43,10 @@ pub(super) struct Graphics {
     target: WindowTarget,
     painter: FramePainter,
     n_rebuilds: u32,
+    /// Turns the window's events into those of the screens.
+    input: egui_winit::State,
+    /// Where the pointer is (pixels).
+    cursor: [f64; 2],
 }
 
 impl Graphics {
@@ -67,13 +72,40 @@ impl Graphics {
         let quality = quality(&gpu);
         target.set_srgb(&gpu, quality.wants_srgb_target());
         let painter = FramePainter::new(&gpu, target.format(), textures, quality);
-        Ok(Self { window, display, gpu, target, painter, n_rebuilds })
+        let input = input_for(&painter, &window, &gpu);
+        Ok(Self { window, display, gpu, target, painter, n_rebuilds, input, cursor: [0.0; 2] })
     }
 
     /// Draws at another quality or with other textures from now on. The maze has to be set again.
     pub(super) fn set_look(&mut self, quality: Quality, textures: &TextureSet) {
         self.target.set_srgb(&self.gpu, quality.wants_srgb_target());
-        self.painter = FramePainter::new(&self.gpu, self.target.format(), textures, quality);
+        let painter = FramePainter::new(&self.gpu, self.target.format(), textures, quality);
+        painter.overlay.continue_from(&self.painter.overlay);
+        self.painter = painter;
+        self.input = input_for(&self.painter, &self.window, &self.gpu);
+    }
+
+    /// An event of the window, for the screens.
+    pub(super) fn feed(&mut self, event: &winit::event::WindowEvent) {
+        if let winit::event::WindowEvent::CursorMoved { position, .. } = event {
+            self.cursor = (*position).into();
+        }
+        // What it consumes is decided by the screen in front, not here.
+        let _ = self.input.on_window_event(&self.window, event);
+    }
+
+    pub(super) fn set_vsync(&mut self, vsync: bool) {
+        self.target.set_vsync(&self.gpu, vsync);
+    }
+
+    pub(super) fn quality_of(&self, choice: QualityChoice) -> Quality {
+        choice.on(&self.gpu)
+    }
+
+    /// How large everything is written, by the window's height and the player's choice.
+    pub(super) fn set_zoom(&self, settings: &Settings) {
+        let height = crate::numbers::to_points(self.target.size()[1], self.scale());
+        self.painter.overlay.context().set_zoom_factor(settings.zoom(height));
     }
 
     /// Until the adapter has drawn all that it was given.
@@ -96,9 +128,10 @@ impl Graphics {
         self.target.size()
     }
 
-    pub(super) fn toggle_fullscreen(&self) {
-        let is_on = self.window.fullscreen().is_some();
-        self.window.set_fullscreen((!is_on).then_some(Fullscreen::Borderless(None)));
+    pub(super) fn set_fullscreen(&self, is_on: bool) {
+        if is_on != self.window.fullscreen().is_some() {
+            self.window.set_fullscreen(is_on.then_some(Fullscreen::Borderless(None)));
+        }
     }
 
     /// The scene and the method's notes, without the rest of the HUD.
@@ -148,7 +181,8 @@ impl Graphics {
 
     /// Width and height in the units of the HUD.
     pub(super) fn size_points(&self) -> [f32; 2] {
-        self.target.size().map(|pixels| crate::numbers::to_points(pixels, self.scale()))
+        let scale = self.scale() * self.painter.overlay.context().zoom_factor();
+        self.target.size().map(|pixels| crate::numbers::to_points(pixels, scale))
     }
 
     fn scale(&self) -> f32 {
@@ -167,8 +201,29 @@ impl Graphics {
         self.painter.note_times(log);
     }
 
-    /// Draws and shows a frame, the log's number `number`.
-    pub(super) fn draw(&mut self, scene: &Scene, hud: &Hud<'_>, number: u64) -> Result<Drawn, Failure> {
+    /// The library divides by the window system's scale, which may be one that is not used, such as 0.
+    fn place_pointer(&self, input: &mut egui::RawInput) {
+        let scale = f64::from(self.scale() * self.painter.overlay.context().zoom_factor());
+        let at = egui::Pos2::from(self.cursor.map(|pixels| to_f32(pixels / scale)));
+        for event in &mut input.events {
+            match event {
+                egui::Event::PointerMoved(pos) | egui::Event::PointerButton { pos, .. } => *pos = at,
+                _ => {}
+            }
+        }
+        if !display::is_scale(self.window.scale_factor()) {
+            input
+                .events
+                .retain(|event| !matches!(event, egui::Event::MouseWheel { .. } | egui::Event::Touch { .. }));
+        }
+    }
+
+    /// Draws and shows a frame with its number in the log, and over it what `show` writes.
+    pub(super) fn draw(
+        &mut self,
+        scene: (&Scene, u64),
+        show: impl FnMut(&mut egui::Ui),
+    ) -> Result<Drawn, Failure> {
         let watch = Stopwatch::start();
         let frame = match self.target.acquire(&self.gpu).map_err(Failure::bad_input)? {
             Acquired::Frame(frame) => frame,
@@ -180,7 +235,10 @@ impl Graphics {
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let size = self.target.size();
         let scale = self.scale();
-        self.painter.draw(&self.gpu, (&view, size, scale), scene, hud, number);
+        let mut input = self.input.take_egui_input(&self.window);
+        self.place_pointer(&mut input);
+        let (_, output) = self.painter.draw(&self.gpu, (&view, size, scale), scene, input, show);
+        self.input.handle_platform_output(&self.window, output);
         let encode = watch.ms();
         let watch = Stopwatch::start();
         self.window.pre_present_notify();
@@ -191,4 +249,10 @@ impl Graphics {
             None => Ok(Drawn::Shown { encode, present: acquire + watch.ms() }),
         }
     }
+}
+
+fn input_for(painter: &FramePainter, window: &Window, gpu: &Gpu) -> egui_winit::State {
+    let context = painter.overlay.context().clone();
+    let most = usize::try_from(gpu.max_side()).ok();
+    egui_winit::State::new(context, egui::ViewportId::ROOT, window, None, None, most)
 }

@@ -29,6 +29,8 @@ struct Shown {
     n_ticks: u64,
     ghost: Option<(&'static str, f64)>,
     help: bool,
+    hints: bool,
+    is_behind: bool,
     notice: Option<String>,
     layers: Layers,
     notes: Notes,
@@ -46,6 +48,8 @@ impl Idle {
             n_ticks: hud.n_ticks,
             ghost: hud.ghost,
             help: hud.help,
+            hints: hud.hints,
+            is_behind: hud.is_behind,
             notice: hud.notice.map(str::to_owned),
             layers: hud.layers,
             notes: hud.notes.clone(),
@@ -64,17 +68,14 @@ impl Idle {
     pub(super) fn wake(&mut self) {
         self.times = None;
     }
-
-    /// What the last frame showed of the maze, and of the method.
-    pub(super) fn picture(&self) -> Option<(Scene, Notes)> {
-        self.shown.as_ref().map(|shown| (shown.scene.clone(), shown.notes.clone()))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine_kind::EngineKind;
     use crate::input::Keyboard;
+    use crate::session::Session;
     use crate::ui::Labels;
     use maze_render::{BallView, Camera, Marker};
     use nalgebra::UnitQuaternion;
@@ -82,20 +83,10 @@ mod tests {
     #[test]
     fn a_still_picture_is_drawn_twice_a_second_and_a_moving_one_always() {
         let (labels, notes, keyboard) = (Labels::default(), Notes::default(), Keyboard::default());
-        let hud = |n_ticks| Hud {
-            phase: Phase::Ready,
-            n_ticks,
-            tick_s: 0.03,
-            ghost: None,
-            labels: &labels,
-            help: true,
-            notice: None,
-            layers: Layers::default(),
-            notes: &notes,
-            pace: None,
-            keyboard: &keyboard,
-            frames: None,
-        };
+        let maze = maze_core::layout::recursive_backtracker(3, 2, 1).unwrap();
+        let maze = maze.maze(&Default::default()).unwrap();
+        let session = Session::new(maze, EngineKind::Continuous).unwrap();
+        let hud = |n_ticks| Hud { n_ticks, ..Hud::of(&session, &labels, &keyboard, &notes) };
         let marker = Marker { position: [0.0; 2], radius: 1.0 };
         let scene = Scene {
             camera: Camera { target: [0.0; 3], distance: 9.0 },

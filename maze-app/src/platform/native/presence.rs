@@ -19,6 +19,11 @@ impl Presence {
         Self { unfocused, ..Self::default() }
     }
 
+    /// The player has chosen otherwise.
+    pub(super) fn set(&mut self, unfocused: Unfocused) {
+        self.unfocused = unfocused;
+    }
+
     pub(super) fn watch(&mut self, watch: Option<Watch>) {
         self.watch = watch;
     }
