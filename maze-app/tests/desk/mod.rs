@@ -128,8 +128,32 @@ impl Session {
     }
 
     pub fn open_with(arguments: &[&str]) -> Self {
-        let directory = tempfile::tempdir().unwrap();
-        let screen = Screen::start();
+        let mut session = Self::start(Screen::start(), tempfile::tempdir().unwrap(), arguments);
+        session.wait_for("the first ticks", |state| 3 <= state.tick);
+        session.find_window();
+        session
+    }
+
+    /// Before the title, where no ticks are logged.
+    pub fn open_at_title(arguments: &[&str]) -> Self {
+        let arguments = [&["--title"], arguments].concat();
+        let mut session = Self::start(Screen::start(), tempfile::tempdir().unwrap(), &arguments);
+        session.find_window();
+        // Until the first frame is shown.
+        std::thread::sleep(Duration::from_secs(3));
+        session
+    }
+
+    /// The game once more, with what it has kept.
+    pub fn open_again(self, arguments: &[&str]) -> Self {
+        let Self { screen, directory, .. } = self;
+        let mut session = Self::start(screen, directory, arguments);
+        session.wait_for("the first ticks", |state| 3 <= state.tick);
+        session.find_window();
+        session
+    }
+
+    fn start(screen: Screen, directory: tempfile::TempDir, arguments: &[&str]) -> Self {
         let log = directory.path().join("state.jsonl");
         let game = start(
             Command::new(env!("CARGO_BIN_EXE_maze-app"))
@@ -143,14 +167,15 @@ impl Session {
                 .env("XDG_CONFIG_HOME", directory.path())
                 .env("XDG_RUNTIME_DIR", directory.path()),
         );
-        let mut session = Self { game, screen, log, n_before_input: 0, directory, window: String::new() };
-        session.wait_for("the first ticks", |state| 3 <= state.tick);
-        session.window = until("the window to show", || {
-            output_of("xdotool", &session.screen.display, &["search", "--onlyvisible", "--name", "^Maze"])
+        Self { game, screen, log, n_before_input: 0, directory, window: String::new() }
+    }
+
+    fn find_window(&mut self) {
+        self.window = until("the window to show", || {
+            output_of("xdotool", &self.screen.display, &["search", "--onlyvisible", "--name", "^Maze"])
         });
-        let window = session.window.clone();
-        session.xdotool(&["windowfocus", &window]);
-        session
+        let window = self.window.clone();
+        self.xdotool(&["windowfocus", &window]);
     }
 
     pub fn tool(&mut self, program: &str, arguments: &[&str]) {

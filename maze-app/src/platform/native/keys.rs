@@ -25,10 +25,12 @@ impl App {
     pub(super) fn key(&mut self, event_loop: &ActiveEventLoop, event: &WindowEvent) -> Result<(), Failure> {
         let WindowEvent::KeyboardInput { event: key, is_synthetic, .. } = event else { return Ok(()) };
         let Some(stroke) = Stroke::new(key, *is_synthetic) else { return Ok(()) };
-        if self.game.screens.is_playing() || !stroke.is_pressed {
+        // A press does one thing: what opens a screen is not for that screen, too.
+        let is_playing = self.game.screens.is_playing();
+        if is_playing || !stroke.is_pressed {
             self.play_key(event_loop, &stroke)?;
         }
-        if self.game.screens.is_playing() {
+        if is_playing {
             return Ok(());
         }
         if stroke.is_pressed && !key.repeat && self.menu_key(event_loop, &stroke)? {
