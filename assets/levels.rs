@@ -1,5 +1,6 @@
 //! The reader of levels.toml, for the game and for the cross-check: both compile it in, so that neither depends on the other.
 
+use maze_core::BallKind;
 use maze_core::layout::Recipe;
 use serde::Deserialize;
 
@@ -10,6 +11,8 @@ pub(crate) struct Level {
     pub(crate) recipe: Recipe,
     /// Time of the autopilot.
     pub(crate) par_ticks: u64,
+    /// Material of the ball.
+    pub(crate) ball: BallKind,
 }
 
 #[derive(Deserialize)]
@@ -32,6 +35,8 @@ struct Entry {
     elitism: u8,
     river: Option<u8>,
     par_ticks: u64,
+    /// Its name.
+    ball: String,
 }
 
 impl Entry {
@@ -43,14 +48,19 @@ impl Entry {
         let plain = Recipe::new(width, height, algorithm, self.seed);
         let river = self.river.unwrap_or(plain.river);
         let recipe = Recipe { braid: self.braid, elitism: self.elitism, river, ..plain };
-        Ok(Level { name: self.name, recipe, par_ticks: self.par_ticks })
+        let ball = self.ball.parse().map_err(|error| in_level(format!("ball: {error}")))?;
+        Ok(Level { name: self.name, recipe, par_ticks: self.par_ticks, ball })
     }
 }
 
 /// Every level, in order.
 pub(crate) fn levels() -> Result<Vec<Level>, String> {
+    read(include_str!("levels.toml"))
+}
+
+/// Those of a text.
+pub(crate) fn read(text: &str) -> Result<Vec<Level>, String> {
     let in_file = |reason: String| format!("assets/levels.toml: {reason}");
-    let file: File =
-        toml::from_str(include_str!("levels.toml")).map_err(|error| in_file(error.to_string()))?;
+    let file: File = toml::from_str(text).map_err(|error| in_file(error.to_string()))?;
     file.level.into_iter().map(Entry::level).collect::<Result<_, _>>().map_err(in_file)
 }

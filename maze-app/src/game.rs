@@ -18,7 +18,7 @@ use crate::ui::{self, FramesPanel, Hud, Labels};
 use crate::view::View;
 use egui::Ui;
 use maze_core::layout::{Algorithm, Recipe};
-use maze_core::{Event, Maze, Phase};
+use maze_core::{BallKind, Event, Maze, Phase};
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -101,6 +101,13 @@ pub(crate) struct Rules {
     /// For the first random maze.
     pub(crate) seed: u64,
     pub(crate) today: Date,
+}
+
+impl Rules {
+    /// The maze of a source, with the ball that it is played with.
+    pub(crate) fn load(&self, source: &Source) -> Result<Maze, Failure> {
+        source.load_for(self.engine, BallKind::Steel)
+    }
 }
 
 impl Board {

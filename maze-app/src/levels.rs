@@ -32,6 +32,15 @@ mod tests {
     use crate::source::ReadArguments;
 
     #[test]
+    fn a_level_of_an_unknown_ball_is_refused_by_its_name() {
+        let text =
+            "[[level]]\nname = 'Odd'\nsize = '4x3'\nalgorithm = 'prim'\nseed = 1\npar_ticks = 9\nball = ";
+        assert_eq!(file::read(&format!("{text}'steel'")).unwrap()[0].ball, maze_core::BallKind::Steel);
+        let error = file::read(&format!("{text}'glass'")).unwrap_err();
+        assert_eq!(error, "assets/levels.toml: level Odd: ball: expected report or steel");
+    }
+
+    #[test]
     fn every_level_can_be_loaded_and_each_is_about_as_hard_as_the_one_before_or_harder() {
         assert_eq!(file::levels().unwrap().len(), N_LEVELS);
         assert!(HELP.contains(&format!("to {N_LEVELS} ")));

@@ -1,5 +1,6 @@
 //! Where a maze comes from: a file, a level, or a seed.
 
+use crate::engine_kind::EngineKind;
 use crate::failure::Failure;
 use crate::levels::{self, Level, N_LEVELS};
 use crate::loaded::Loaded;
@@ -14,7 +15,7 @@ use clap::Args;
 use maze_core::import::picture::WallTone;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::replay::MAX_NAME;
-use maze_core::{AssembleOptions, MAX_GRID_CELLS, Maze, Radius, UpAxis};
+use maze_core::{AssembleOptions, BallKind, MAX_GRID_CELLS, Maze, Radius, UpAxis};
 use std::path::{Path, PathBuf};
 
 /// How to read a maze file.
@@ -23,6 +24,10 @@ pub(crate) struct ReadArguments {
     /// Ball radius in corridors, 0.02 to 0.49 [default: 0.35]
     #[arg(long, value_name = "R", value_parser = parse_radius)]
     ball_radius: Option<Radius>,
+    /// Material of the ball: report (restitution 0.8, nothing slows it down) or steel (rolls, rebounds by 0.4, comes to rest)
+    /// [default: the level's; steel to play, report elsewhere and with --engine published]
+    #[arg(long, value_name = "NAME", value_parser = parse_ball)]
+    ball: Option<BallKind>,
     /// Axis of an .obj that points out of the board [default: the one along which the file is flattest]
     #[arg(long, value_name = "AXIS", value_parser = parse_up_axis)]
     up: Option<UpAxis>,
@@ -102,13 +107,14 @@ impl ReadArguments {
     /// As on the command line.
     fn words(&self) -> Vec<String> {
         let radius = self.ball_radius.map(|radius| format!("--ball-radius={}", radius.units()));
+        let ball = self.ball.map(|ball| format!("--ball={}", ball.name()));
         let up = self.up.map(|axis| format!("--up={}", axis.name()));
         let name = |key: SignKey| {
             SignKey::ALL.into_iter().find(|(known, _)| *known == key).map_or("", |(_, name)| name)
         };
         let signs = self.text.iter().map(|(key, signs)| format!("--text={}={signs}", name(*key)));
         let walls = self.walls.map(|tone| format!("--walls={}", tone_name(tone)));
-        [radius, up, walls].into_iter().flatten().chain(signs).collect()
+        [radius, ball, up, walls].into_iter().flatten().chain(signs).collect()
     }
 
     /// The signs that flags state; of two statements the last one counts.
@@ -256,7 +262,21 @@ impl Source {
     }
 
     pub(crate) fn load(&self) -> Result<Maze, Failure> {
-        Ok(self.load_and_tell()?.maze)
+        self.load_for(EngineKind::Continuous, BallKind::Report)
+    }
+
+    /// With the ball for an engine; `usual` where neither a flag nor a level states one. The report's method is defined for the
+    /// report's ball.
+    pub(crate) fn load_for(&self, engine: EngineKind, usual: BallKind) -> Result<Maze, Failure> {
+        let mut maze = self.load_and_tell()?.maze;
+        let stated = match &self.kind {
+            _ if engine == EngineKind::Published => BallKind::Report,
+            Kind::Level { level, .. } => level.ball,
+            Kind::Daily(_) => BallKind::Steel,
+            Kind::File(_) | Kind::Random(_) => usual,
+        };
+        maze.ball = self.read.ball.unwrap_or(stated);
+        Ok(maze)
     }
 
     /// The maze and what was found on the way to it.
@@ -376,6 +396,10 @@ pub(crate) enum Onwards {
     Nothing,
     NewMaze,
     NextLevel,
+}
+
+fn parse_ball(text: &str) -> Result<BallKind, String> {
+    text.parse().map_err(|error: maze_core::UnknownBall| error.to_string())
 }
 
 fn parse_radius(text: &str) -> Result<Radius, String> {

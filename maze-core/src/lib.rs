@@ -70,7 +70,7 @@ mod physics;
 mod play;
 
 pub use nalgebra;
-pub use physics::ball::{Ball, BallSpec, OutOfRange, Radius};
+pub use physics::ball::{Ball, BallKind, BallSpec, OutOfRange, Radius, UnknownBall};
 pub use physics::engine::{Continuous, Engine, Published};
 pub use physics::gravity::Tilt;
 pub use physics::sorted_planes::{Clearance, SortedPlanes};

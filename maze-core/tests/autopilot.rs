@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use maze_core::{
-    AssembleOptions, Autopilot, Ball, BallSpec, Continuous, Engine, Maze, Phase, Published, Run, extrude,
-    gravity, layout,
+    AssembleOptions, Autopilot, Ball, BallKind, BallSpec, Continuous, Engine, Maze, Phase, Published, Run,
+    extrude, gravity, layout,
 };
 
 /// The player's limit: the tangent of 10 degrees, half of 20.
@@ -86,4 +86,16 @@ fn the_same_maze_is_played_the_same_way() {
         (play(&maze, &mut engine), engine.ball())
     };
     assert_eq!(play(), play());
+}
+
+#[test]
+fn the_steel_ball_gets_to_the_goal_of_200_mazes() {
+    for seed in 0..200_usize {
+        let algorithm = layout::Algorithm::ALL[seed % layout::Algorithm::ALL.len()];
+        let recipe = layout::Recipe::new(2 + seed % 11, 2 + seed % 7, algorithm, seed as u64);
+        let mut maze = maze_of(&layout::Recipe { braid: (seed % 3) as f64 / 2.0, ..recipe });
+        maze.ball = BallKind::Steel;
+        let mut engine = maze.exact_engine(Published::TICK_S).unwrap();
+        assert!(play(&maze, &mut engine).is_some(), "seed {seed}, {algorithm}: stuck at {:?}", engine.ball());
+    }
 }

@@ -10,7 +10,7 @@ use crate::setup::USUAL_MAX_TILT_DEGREES;
 use crate::source::{MazeArguments, Source};
 use clap::Args;
 use maze_core::replay::MAX_TICKS;
-use maze_core::{Autopilot, Event, Phase};
+use maze_core::{Autopilot, BallKind, Event, Phase};
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         files::expect_outputs(&[("--record", path)], &source.inputs())?;
         source.expect_recordable()?;
     }
-    let mut game = Session::new(source.load()?, arguments.engine)?;
+    let mut game = Session::new(source.load_for(arguments.engine, BallKind::Report)?, arguments.engine)?;
     let mut kept = arguments.record.as_deref().map(|path| Keeper::new(path, &game, &source)).transpose()?;
     let half_tangent_limit = (USUAL_MAX_TILT_DEGREES.to_radians() / 2.0).tan();
     let Ok(mut autopilot) = Autopilot::new(game.maze(), half_tangent_limit) else {

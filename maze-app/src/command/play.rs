@@ -86,7 +86,15 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
     if record.is_some() {
         source.expect_recordable()?;
     }
-    let maze = source.load()?;
+    let rules = Rules {
+        engine: arguments.engine,
+        max_tilt_rad: arguments.max_tilt.to_radians(),
+        demo: arguments.demo,
+        rounds: false,
+        seed: recipe::fresh_seed(),
+        today: today(),
+    };
+    let maze = rules.load(&source)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
     let event_loop = native::event_loop()?;
     let (mut file, mut settings, told) = SettingsFile::open(arguments.config.clone());
@@ -97,14 +105,6 @@ pub(crate) fn run(arguments: Arguments) -> Result<(), Failure> {
         settings.controls.set = set;
         file.take_for_written(&settings);
     }
-    let rules = Rules {
-        engine: arguments.engine,
-        max_tilt_rad: arguments.max_tilt.to_radians(),
-        demo: arguments.demo,
-        rounds: false,
-        seed: recipe::fresh_seed(),
-        today: today(),
-    };
     let begins_at_once = arguments.begins_at_once();
     let (first, role) = match begins_at_once {
         true => (Screen::Playing, Role::Play),

@@ -16,6 +16,7 @@ use crate::source::{KnownMazeArguments, Source};
 use crate::ui;
 use crate::view::{self, ZOOM_RANGE, zoomed};
 use clap::Args;
+use maze_core::BallKind;
 use maze_core::Tilt;
 use maze_render::{Gpu, Renderer};
 use std::path::PathBuf;
@@ -97,7 +98,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     inputs.extend(arguments.textures.as_deref().map(files::texture_files).into_iter().flatten());
     files::expect_outputs(&[("--out", &arguments.out)], &inputs)?;
     let textures = sidecar::textures(arguments.textures.as_deref(), source.file())?;
-    let mut game = Session::new(source.load()?, arguments.engine)?;
+    let mut game = Session::new(source.load_for(arguments.engine, BallKind::Report)?, arguments.engine)?;
     game.set_ghost(arguments.ghost)?;
     for _ in 0..arguments.ticks {
         game.tick(arguments.tilt)?;

@@ -23,8 +23,10 @@ impl Platform {
     fn obey(&mut self, order: Option<Order>) {
         let Some(order) = order else { return };
         if let Order::Load(source, role) = &order {
-            let board = source
-                .load()
+            let board = self
+                .game
+                .rules()
+                .load(source)
                 .and_then(|maze| Board::new(maze, source.clone(), *role, self.game.rules()))
                 .and_then(|board| self.game.put(board));
             if let Err(failure) = board {
@@ -204,10 +206,40 @@ fn the_first_start_leads_to_a_rolling_ball_in_two_presses() {
     desk.press(Key::Enter);
     assert!(desk.game().screens.is_playing());
     assert_eq!(desk.game().board.source.level_number(), Some(1));
-    desk.game().control.tap(crate::input::Direction::Right);
-    desk.pass(1.0);
+    desk.game().control.tap(crate::input::Direction::Left);
+    desk.game().control.hold([crate::input::Direction::Left].into_iter());
+    desk.pass(0.5);
     assert_eq!(desk.game().board.session.phase(), Phase::Playing);
     assert_ne!(desk.game().board.session.ball().velocity.norm(), 0.0);
+}
+
+#[test]
+fn p1_a_ball_that_a_tap_has_set_in_motion_comes_to_rest_soon_after() {
+    let mut desk = desk();
+    desk.press(Key::Enter);
+    desk.game().control.hold([crate::input::Direction::Left].into_iter());
+    desk.game().control.tap(crate::input::Direction::Left);
+    desk.pass(0.35);
+    desk.game().control.hold([].into_iter());
+    desk.pass(0.3);
+    assert!(0.1 < desk.game().board.session.ball().velocity.norm(), "it rolls");
+    desk.pass(2.0);
+    assert_eq!(desk.game().board.session.ball().velocity.norm(), 0.0);
+    assert_eq!(desk.game().board.session.maze().ball, BallKind::Steel);
+}
+
+#[test]
+fn p4_a_tap_tips_the_board_less_than_a_held_key_does_in_the_same_time() {
+    let tilt_after = |n_ticks| {
+        let mut control = TiltControl::new(20_f64.to_radians());
+        control.hold([crate::input::Direction::Right].into_iter());
+        control.tap(crate::input::Direction::Right);
+        (0..n_ticks).for_each(|_| control.tick(0.03));
+        control.tilt().world_from_maze().angle().to_degrees()
+    };
+    let (tap, held) = (tilt_after(4), tilt_after(16));
+    assert!((2.0..5.0).contains(&tap), "{tap} degrees after 0.12 s");
+    assert!(17.0 < held, "{held} degrees after 0.48 s");
 }
 
 #[test]
@@ -219,7 +251,7 @@ fn a_level_is_played_to_its_goal_and_the_next_one_follows() {
     desk.pass(60.0);
     assert_eq!(desk.top(), Screen::Result);
     assert_eq!(desk.game().board.session.phase(), Phase::Finished);
-    assert_eq!(desk.focused(), "next level", "the first time Enter goes on");
+    assert_eq!(desk.focused(), "Next level", "the first time Enter goes on");
     desk.press(Key::Enter);
     assert_eq!(desk.game().board.source.level_number(), Some(2));
     assert!(desk.game().screens.is_playing());

@@ -28,6 +28,11 @@ impl Outcome {
     }
 }
 
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
 fn difference(seconds: f64) -> String {
     let sign = if seconds < 0.0 { '-' } else { '+' };
     format!("{sign}{}", clock_text(seconds.abs()))
@@ -53,8 +58,9 @@ pub(super) fn show(ui: &mut Ui, outcome: &Outcome) -> Option<Choice> {
             RichText::new(format!("That was the last level. All of them: {}", clock_text(total))).color(GOLD),
         );
     }
+    ui.add_space(6.0);
     let again = ("Again".to_owned(), Choice::Restart);
-    let next = outcome.next.clone().map(|next| (next, Choice::Next));
+    let next = outcome.next.clone().map(|next| (capitalised(&next), Choice::Next));
     let mut lines =
         if outcome.is_slower() { vec![again] } else { next.clone().into_iter().chain([again]).collect() };
     if outcome.is_slower() {

@@ -9,7 +9,7 @@ use crate::assembly::survey::{Survey, extent};
 use crate::maze::{FaceReason, ImportReport, Maze, Route};
 use crate::navigation::ends::{self, Ends, Requested, RouteError};
 use crate::navigation::space::ConfigurationSpace;
-use crate::physics::ball::{BallSpec, Radius};
+use crate::physics::ball::{BallKind, BallSpec, Radius};
 use crate::physics::bounds::Bounds;
 use crate::physics::sorted_planes::SortedPlanes;
 use nalgebra::{Vector2, Vector3};
@@ -183,6 +183,7 @@ impl Maze {
             openings,
             bounds: Bounds { low, high },
             wall_height: frame.z(survey.top_z),
+            ball: BallKind::default(),
             ball_radius: Radius::new(in_corridors * width)
                 .map_err(|_| AssembleError::NoRoom { radius: asked })?,
             report: report(up_axis, survey, &plan, &frame, passing),

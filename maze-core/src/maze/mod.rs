@@ -7,7 +7,7 @@ pub use report::{FaceNote, FaceReason, ImportReport};
 use crate::assembly::surface::SurfaceMesh;
 use crate::layout::Metrics;
 use crate::navigation::space::ConfigurationSpace;
-use crate::physics::ball::{Ball, BallSpec, OutOfRange, Radius};
+use crate::physics::ball::{Ball, BallKind, BallSpec, OutOfRange, Radius};
 use crate::physics::bounds::Bounds;
 use crate::physics::engine::{Continuous, Published};
 use crate::physics::sorted_planes::SortedPlanes;
@@ -50,8 +50,10 @@ pub struct Maze {
     pub bounds: Bounds,
     /// From the floor to the top of the walls as drawn (units); very high walls are lowered.
     pub wall_height: f64,
-    /// The ball this maze is played with.
+    /// Radius of the ball this maze is played with.
     pub ball_radius: Radius,
+    /// Its material: the report's until another one is chosen.
+    pub ball: BallKind,
     /// What was found in the file that it comes from.
     pub report: ImportReport,
     /// Start, goal and the paths between them: found together, and not to be changed one by one.
@@ -89,9 +91,9 @@ impl Maze {
         self.route.is_solvable
     }
 
-    /// The usual ball, with the radius of this maze's.
+    /// The ball this maze is played with.
     pub fn ball_spec(&self) -> BallSpec {
-        BallSpec { radius: self.ball_radius, ..BallSpec::default() }
+        self.ball.spec(self.ball_radius)
     }
 
     /// The walls, the maze's ball and a tick length (s), for any number of balls.

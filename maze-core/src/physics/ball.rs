@@ -103,7 +103,7 @@ impl BallSpec {
     }
 
     /// What rolling resistance leaves of a velocity after a time (s): its direction, and never a turn.
-    pub(crate) fn slowed(&self, velocity: Vector2<f64>, time_s: f64) -> Vector2<f64> {
+    pub fn slowed(&self, velocity: Vector2<f64>, time_s: f64) -> Vector2<f64> {
         if self.resistance == 0.0 {
             return velocity;
         }
@@ -112,7 +112,7 @@ impl BallSpec {
     }
 
     /// Whether rolling resistance holds a ball: it stops within the time (s), and the acceleration does not overcome it.
-    pub(crate) fn holds(&self, velocity: Vector2<f64>, acceleration: Vector2<f64>, time_s: f64) -> bool {
+    pub fn holds(&self, velocity: Vector2<f64>, acceleration: Vector2<f64>, time_s: f64) -> bool {
         0.0 < self.resistance
             && acceleration.norm() <= self.resistance
             && velocity.norm() <= self.resistance * time_s
@@ -120,6 +120,64 @@ impl BallSpec {
 
     /// The usual radius: large enough to be seen, and corridors stay wide enough to bounce in.
     pub const RADIUS: Radius = Radius(0.35);
+}
+
+/// A ball's material by its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum BallKind {
+    /// The report's: a point mass of restitution 0.8 that nothing slows down.
+    #[default]
+    Report,
+    /// A solid steel sphere that rolls, rebounds little and comes to rest: for players, who have to be able to brake.
+    Steel,
+}
+
+impl BallKind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Report, Self::Steel];
+
+    /// Rebound of [`BallKind::Steel`]. A real rolling sphere whose material has 0.8 comes back with (5 * 0.8 - 2) / 7 = 0.29 once it
+    /// rolls again; a little more looks livelier.
+    pub const STEEL_RESTITUTION: f64 = 0.4;
+
+    /// Rolling resistance of [`BallKind::Steel`] (units/s²). From 1 unit/s the ball stops within 1.5 s, and a tilt of 5.3 degrees
+    /// sets it in motion. Half as much would leave a tapped ball rolling for 3 s, twice as much would need 10 degrees.
+    pub const STEEL_RESISTANCE: f64 = 0.65;
+
+    /// As in a level file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Report => "report",
+            Self::Steel => "steel",
+        }
+    }
+
+    /// A ball of this material and a radius.
+    pub fn spec(self, radius: Radius) -> BallSpec {
+        let report = BallSpec { radius, ..BallSpec::default() };
+        match self {
+            Self::Report => report,
+            Self::Steel => BallSpec {
+                restitution: Self::STEEL_RESTITUTION,
+                rolling: BallSpec::ROLLING_SPHERE,
+                resistance: Self::STEEL_RESISTANCE,
+                ..report
+            },
+        }
+    }
+}
+
+/// No ball has that name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("expected report or steel")]
+pub struct UnknownBall;
+
+impl std::str::FromStr for BallKind {
+    type Err = UnknownBall;
+
+    fn from_str(name: &str) -> Result<Self, UnknownBall> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name).ok_or(UnknownBall)
+    }
 }
 
 impl Default for BallSpec {

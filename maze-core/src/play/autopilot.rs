@@ -17,6 +17,9 @@ const BRAKING_FRACTION: f64 = 0.6;
 /// How fast a wrong speed is corrected (1/s): within some ten ticks, so that the tick's delay does not make it swing.
 const GAIN_PER_S: f64 = 6.0;
 
+/// Below this speed (units/s) resistance is against the start of a motion, not against the motion.
+const SLOW: f64 = 0.05;
+
 /// Ticks without coming nearer to the goal after which the ball is shaken loose, and for how many it is shaken.
 const PATIENCE_TICKS: u32 = 300;
 const SHAKE_TICKS: u32 = 40;
@@ -39,7 +42,10 @@ pub struct Autopilot {
     space: Arc<ConfigurationSpace>,
     from_goal: Distances,
     goal: Vector2<f64>,
-    strongest: f64,
+    /// The strongest drive of gravity in the plane, and what the ball makes of it (units/s²).
+    steepest: f64,
+    rolling: f64,
+    resistance: f64,
     half_tangent_limit: f64,
     cell: Option<usize>,
     nearest: f64,
@@ -66,7 +72,9 @@ impl Autopilot {
             space: Arc::clone(space),
             from_goal,
             goal: *goal,
-            strongest: -WORLD_GRAVITY.z * sin,
+            steepest: -WORLD_GRAVITY.z * sin,
+            rolling: maze.ball_spec().rolling,
+            resistance: maze.ball_spec().resistance,
             half_tangent_limit,
             cell: None,
             nearest: f64::INFINITY,
@@ -93,12 +101,12 @@ impl Autopilot {
             return Tilt { towards_x: 1, towards_y: 0 };
         }
         let distance = to_target.norm();
-        let braking = BRAKING_FRACTION * self.strongest;
+        let braking = BRAKING_FRACTION * self.rolling * self.steepest;
         let fastest = (2.0 * braking * distance).sqrt();
         // The goal may be passed at any speed.
         let speed = if is_last || TOP_SPEED < fastest { TOP_SPEED } else { fastest };
         let wanted = to_target.try_normalize(0.0).unwrap_or_default() * speed;
-        self.tilt_for((wanted - ball.velocity) * GAIN_PER_S)
+        self.tilt_for(self.drive((wanted - ball.velocity) * GAIN_PER_S, ball.velocity))
     }
 
     /// The end of the straight stretch that begins in a cell: its middle, and whether that is the goal.
@@ -150,15 +158,26 @@ impl Autopilot {
         }
     }
 
-    /// The tilt that accelerates so, or as strongly as it may in that direction.
-    fn tilt_for(&self, acceleration: Vector2<f64>) -> Tilt {
-        let strength = acceleration.norm();
+    /// The part of gravity in the plane that accelerates a ball so, against the resistance to its motion or to its start.
+    fn drive(&self, acceleration: Vector2<f64>, velocity: Vector2<f64>) -> Vector2<f64> {
+        if self.resistance == 0.0 {
+            return acceleration / self.rolling;
+        }
+        let moves = SLOW < velocity.norm();
+        let resisted = if moves { velocity } else { acceleration };
+        let against = resisted.try_normalize(0.0).unwrap_or_default() * self.resistance;
+        (acceleration + against) / self.rolling
+    }
+
+    /// The tilt under which gravity drives so, or as strongly as it may in that direction.
+    fn tilt_for(&self, drive: Vector2<f64>) -> Tilt {
+        let strength = drive.norm();
         if strength == 0.0 {
             return Tilt::LEVEL;
         }
-        let sin = lesser(self.strongest, strength) / -WORLD_GRAVITY.z;
+        let sin = lesser(self.steepest, strength) / -WORLD_GRAVITY.z;
         let half_tangent = sin / (1.0 + (1.0 - sin * sin).sqrt());
-        let direction = acceleration / strength;
+        let direction = drive / strength;
         Tilt::from_half_tangents(direction.x * half_tangent, direction.y * half_tangent)
     }
 }

@@ -10,7 +10,7 @@ pub use rolling::RollingEngine;
 
 use maze_core::{BallSpec, OutOfRange};
 
-/// Neither rapier nor closed form knows rolling resistance: a ball that has some is refused, not taken for one without.
+/// Neither rapier on a tilting board nor closed form knows rolling resistance: a ball that has some is refused, not taken for one without.
 fn without_resistance(spec: BallSpec) -> Result<BallSpec, OutOfRange> {
     let spec = spec.checked()?;
     let expected = "0, for an engine other than ours";

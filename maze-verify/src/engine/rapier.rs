@@ -1,6 +1,5 @@
 //! rapier3d as a [`maze_core::Engine`], held in the plane: gravity is projected for it, as for our engines.
 
-use super::without_resistance;
 use crate::board::Board;
 use maze_core::{Ball, BallSpec, Engine, Observer, OutOfRange, Tick};
 use nalgebra::Vector2;
@@ -48,7 +47,7 @@ impl RapierEngine {
         ball: Ball,
         tick_s: f64,
     ) -> Result<Self, OutOfRange> {
-        let (ball, spec) = (ball.checked()?, without_resistance(spec)?);
+        let (ball, spec) = (ball.checked()?, spec.checked()?);
         let restitution = to_f32(spec.restitution);
         let mut world = world(tick_s);
         for wall in colliders(board, walls, HALF_HEIGHT, 0.0)? {
@@ -75,6 +74,22 @@ impl RapierEngine {
     /// rapier's step under an acceleration (units/s²) and nothing else: [`Engine::tick`] without reading its events.
     /// Needs a finite acceleration.
     pub fn step(&mut self, acceleration: Vector2<f64>) {
+        if self.spec.resistance == 0.0 {
+            return self.step_freely(acceleration);
+        }
+        // rapier knows no rolling resistance: our engines' rule, between its steps.
+        let velocity = self.ball().velocity;
+        if self.spec.holds(velocity, acceleration * self.spec.rolling, self.tick_s) {
+            self.world.bodies[self.body].set_linvel(in_plane(Vector2::zeros()), true);
+            return self.step_freely(Vector2::zeros());
+        }
+        self.step_freely(acceleration);
+        let velocity = self.ball().velocity;
+        let slowed = in_plane(self.spec.slowed(velocity, self.tick_s));
+        self.world.bodies[self.body].set_linvel(slowed, true);
+    }
+
+    fn step_freely(&mut self, acceleration: Vector2<f64>) {
         self.world.gravity = in_plane(acceleration * self.spec.rolling);
         self.world.step();
     }
@@ -241,6 +256,7 @@ pub(super) fn to_f32(value: f64) -> f32 {
 mod tests {
     use super::*;
     use maze_core::Bounds;
+    use maze_core::{Continuous, SortedPlanes};
 
     fn corridor() -> Board {
         let wall = |y: f64| Bounds { low: Vector2::new(-9.0, y), high: Vector2::new(9.0, y + 0.2) };
@@ -261,6 +277,23 @@ mod tests {
             assert_eq!(compound.ball(), cuboids.ball());
         }
         assert!(cuboids.ball().position.y.abs() < 0.2 && cuboids.ball().velocity.y.abs() < 1.0, "it bounced");
+    }
+
+    #[test]
+    fn a_steel_ball_stops_as_ours_does() {
+        let ball = Ball { position: Vector2::zeros(), velocity: Vector2::new(1.0, 0.0) };
+        let spec = maze_core::BallKind::Steel.spec(BallSpec::RADIUS);
+        let planes = std::sync::Arc::new(SortedPlanes::new([]).unwrap());
+        let board = Board::from_planes(&planes);
+        let mut rapier = RapierEngine::new(&board, Walls::Cuboids, spec, ball, 0.03).unwrap();
+        let mut ours = Continuous::new(planes, spec, ball, 0.03).unwrap();
+        for _ in 0..60 {
+            rapier.step(Vector2::new(0.0, 0.1));
+            ours.tick(Vector2::new(0.0, 0.1)).unwrap();
+        }
+        assert_eq!((rapier.ball().velocity, ours.ball().velocity), (Vector2::zeros(), Vector2::zeros()));
+        // rapier takes a tick's acceleration before its way: half a tick's gain in speed more each tick.
+        assert!((rapier.ball().position - ours.ball().position).norm() < 0.01);
     }
 
     #[test]

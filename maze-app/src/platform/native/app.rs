@@ -207,7 +207,8 @@ impl App {
 
     /// Puts another maze on the board. One that cannot be loaded is reported, and what is there stays.
     pub(super) fn load(&mut self, source: Source, role: Role) -> Result<(), Failure> {
-        let board = source.load().and_then(|maze| Board::new(maze, source, role, self.game.rules()));
+        let rules = *self.game.rules();
+        let board = rules.load(&source).and_then(|maze| Board::new(maze, source, role, &rules));
         let ready = board.and_then(|board| Ok((self.look.textures_of(&board.source)?, board)));
         match ready {
             Ok((textures, board)) => {
