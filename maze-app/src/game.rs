@@ -19,6 +19,7 @@ use crate::view::View;
 use egui::Ui;
 use maze_core::layout::{Algorithm, Recipe};
 use maze_core::{BallKind, Event, Maze, Phase};
+use maze_render::PITCH_RAD;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -501,6 +502,11 @@ impl Game {
             false if self.settings.accessibility.left_handed => -self.screens.covered_width(size_points[0]),
             false => self.screens.covered_width(size_points[0]),
         }
+    }
+
+    /// Between the line of sight and straight down.
+    pub(crate) fn pitch_rad(&self) -> f32 {
+        if self.settings.video.camera == CameraMode::Above { 0.0 } else { PITCH_RAD }
     }
 
     /// How near the view is when the player has not zoomed.

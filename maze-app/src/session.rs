@@ -347,7 +347,7 @@ mod tests {
         for tick in 0..50 {
             game.tick(tilt_at(tick)).unwrap();
         }
-        let camera = Camera { target: [0.0; 3], distance: 10.0 };
+        let camera = Camera { target: [0.0; 3], distance: 10.0, pitch_rad: maze_render::PITCH_RAD };
         let x_at = |alpha| game.scene(&game.pose(alpha, None), camera).ball.position[0];
         assert!((x_at(0.5) - (x_at(0.0) + x_at(1.0)) / 2.0).abs() < 1.0e-6);
         assert_eq!(x_at(1.0), to_f32(game.ball().position.x));
@@ -409,7 +409,7 @@ mod tests {
                 let apart = game.ghost().unwrap().1;
                 // The board's diagonal is below 10 corridors: further away it would have gone through a wall.
                 assert!(0.0 < apart && apart < 10.0, "{name} beside {}: {apart}", kind.name());
-                let camera = Camera { target: [0.0; 3], distance: 10.0 };
+                let camera = Camera { target: [0.0; 3], distance: 10.0, pitch_rad: maze_render::PITCH_RAD };
                 let [then, now] = [0.0, 1.0].map(|alpha| game.scene(&game.pose(alpha, None), camera));
                 assert_ne!(then.ghost, now.ghost);
                 assert_ne!(now.ghost.unwrap().position, now.ball.position);
@@ -420,7 +420,11 @@ mod tests {
             let others = EngineKind::BUILT.iter().filter(|other| *other != kind);
             assert_eq!(seen, others.map(|other| other.name()).collect::<Vec<_>>());
             assert_eq!(
-                game.scene(&game.pose(1.0, None), Camera { target: [0.0; 3], distance: 1.0 }).ghost,
+                game.scene(
+                    &game.pose(1.0, None),
+                    Camera { target: [0.0; 3], distance: 1.0, pitch_rad: maze_render::PITCH_RAD }
+                )
+                .ghost,
                 None
             );
         }

@@ -94,6 +94,7 @@ choice!(
         #[default]
         Fixed = "fixed",
         Follow = "follow the ball",
+        Above = "from above",
     }
 );
 choice!(

@@ -1,7 +1,7 @@
 //! The camera: the whole maze at first, nearer with the ball in the middle when zoomed in.
 
 use crate::numbers::to_f32;
-use maze_render::{Camera, FIELD_OF_VIEW_RAD};
+use maze_render::{Camera, FIELD_OF_VIEW_RAD, PITCH_RAD};
 use nalgebra::Vector3;
 use std::time::Duration;
 
@@ -21,8 +21,14 @@ const SETTLE_S: f64 = 0.09;
 const ROOM_BESIDE: f32 = 0.1;
 
 /// A view of the whole board that [`beside`] a covered part of the width still holds all of it.
-pub(crate) fn fitted(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32, covered: f32) -> Camera {
-    Camera::fitted(half_size, aspect * (1.0 - (1.0 + ROOM_BESIDE) * covered), max_tilt_rad)
+pub(crate) fn fitted(
+    pitch_rad: f32,
+    half_size: [f32; 3],
+    aspect: f32,
+    max_tilt_rad: f32,
+    covered: f32,
+) -> Camera {
+    Camera::fitted_at(pitch_rad, half_size, aspect * (1.0 - (1.0 + ROOM_BESIDE) * covered), max_tilt_rad)
 }
 
 /// The same view with its middle in what is left of the width when a part of it, on the left, is covered.
@@ -36,8 +42,8 @@ pub(crate) fn beside(camera: Camera, aspect: f32, covered: f32) -> Camera {
 pub(crate) fn with_room(camera: Camera, below: f32, above: f32) -> Camera {
     let distance = camera.distance / (1.0 - below - above);
     let down = (below - above) * (FIELD_OF_VIEW_RAD / 2.0).tan() * distance;
-    let target = Vector3::from(camera.target) - Camera::world_from_view() * Vector3::new(0.0, down, 0.0);
-    Camera { target: target.into(), distance }
+    let target = Vector3::from(camera.target) - camera.world_from_view() * Vector3::new(0.0, down, 0.0);
+    Camera { target: target.into(), distance, ..camera }
 }
 
 /// A view that many times nearer than `whole`, the ball in its middle from [`FOLLOW_ZOOM`] on; `ball` is in the world.
@@ -45,7 +51,7 @@ pub(crate) fn zoomed(whole: Camera, zoom: f64, ball: Vector3<f32>) -> Camera {
     let follow = ((zoom - 1.0) / (FOLLOW_ZOOM - 1.0)).clamp(0.0, 1.0);
     let middle = Vector3::from(whole.target);
     let target = middle + (ball - middle) * to_f32(follow);
-    Camera { target: target.into(), distance: whole.distance / to_f32(zoom) }
+    Camera { target: target.into(), distance: whole.distance / to_f32(zoom), ..whole }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +63,11 @@ pub(crate) struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { wanted_zoom: 1.0, zoom: 1.0, camera: Camera { target: [0.0; 3], distance: 1.0 } }
+        Self {
+            wanted_zoom: 1.0,
+            zoom: 1.0,
+            camera: Camera { target: [0.0; 3], distance: 1.0, pitch_rad: PITCH_RAD },
+        }
     }
 }
 
@@ -103,7 +113,7 @@ impl View {
 mod tests {
     use super::*;
 
-    const WHOLE: Camera = Camera { target: [0.0, 1.0, 0.0], distance: 20.0 };
+    const WHOLE: Camera = Camera { target: [0.0, 1.0, 0.0], distance: 20.0, pitch_rad: PITCH_RAD };
 
     fn settled(notches: f64) -> Camera {
         let mut view = View::default();

@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         scene.ball.rotation = UnitQuaternion::from_euler_angles(0.5, 0.3, 0.2);
         scene.world_from_maze = UnitQuaternion::from_scaled_axis(Vector3::new(tilt[0], tilt[1], 0.0));
         if let Some(distance) = zoom {
-            scene.camera = Camera { target: [x, y, 0.0], distance };
+            scene.camera = Camera { target: [x, y, 0.0], distance, pitch_rad: maze_render::PITCH_RAD };
         }
         let begun = std::time::Instant::now();
         let picture = capture(&gpu, &mut renderer, size, &scene)?;

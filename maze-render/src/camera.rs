@@ -29,13 +29,15 @@ const N_FIT_ROUNDS: u16 = 4;
 /// then adds 0.3 percent of the distance at a limit of 35 degrees.
 const N_FIT_AXES: u16 = 16;
 
-/// Where the eye is. Field of view and pitch are fixed: [`FIELD_OF_VIEW_RAD`], [`PITCH_RAD`].
+/// Where the eye is. The field of view is fixed: [`FIELD_OF_VIEW_RAD`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// World point in the middle of the view.
     pub target: [f32; 3],
     /// From the eye to the target, greater than zero.
     pub distance: f32,
+    /// Between the line of sight and straight down: [`PITCH_RAD`], or 0 from above.
+    pub pitch_rad: f32,
 }
 
 impl Camera {
@@ -49,41 +51,46 @@ impl Camera {
     /// below the floor, up to `half_size[2]`. `aspect` is width over height. A limit above a quarter turn counts as one.
     /// Takes some microseconds.
     pub fn fitted(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32) -> Self {
-        let fit = Fit::new(half_size, aspect, max_tilt_rad);
+        Self::fitted_at(PITCH_RAD, half_size, aspect, max_tilt_rad)
+    }
+
+    /// The same at another pitch.
+    pub fn fitted_at(pitch_rad: f32, half_size: [f32; 3], aspect: f32, max_tilt_rad: f32) -> Self {
+        let fit = Fit::new(pitch_rad, half_size, aspect, max_tilt_rad);
         let nearest = fit.sides.max(0.5 * (fit.above + fit.below)).max(f32::MIN_POSITIVE);
         let half_y = half_view_y();
         let mut distance = nearest;
         for _ in 0..N_FIT_ROUNDS {
-            let wanted = level_middle(half_size, distance) / half_y;
+            let wanted = level_middle(pitch_rad, half_size, distance) / half_y;
             let needed = (fit.above - wanted).max(fit.below + wanted);
             distance = needed.min((1.0 + MAX_STEP_BACK) * nearest).max(nearest);
         }
-        let wanted = level_middle(half_size, distance) / half_y;
+        let wanted = level_middle(pitch_rad, half_size, distance) / half_y;
         let shift = half_y * wanted.max(fit.above - distance).min(distance - fit.below);
-        let target = Self::world_from_view() * Vector3::new(0.0, shift, 0.0);
-        Self { target: target.into(), distance }
+        let target = world_from_view(pitch_rad) * Vector3::new(0.0, shift, 0.0);
+        Self { target: target.into(), distance, pitch_rad }
     }
 
     /// How far a camera that looks at the board's centre has to stand; otherwise like [`Camera::fitted`].
     pub fn fitted_distance(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32) -> f32 {
-        let fit = Fit::new(half_size, aspect, max_tilt_rad);
+        let fit = Fit::new(PITCH_RAD, half_size, aspect, max_tilt_rad);
         fit.sides.max(fit.above).max(fit.below).max(f32::MIN_POSITIVE)
     }
 
     /// Turns view axes (right, up, towards the eye) into the world; the arcball needs it.
-    pub fn world_from_view() -> UnitQuaternion<f32> {
-        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), PITCH_RAD)
+    pub fn world_from_view(&self) -> UnitQuaternion<f32> {
+        world_from_view(self.pitch_rad)
     }
 
     /// The eye, in the world.
     pub fn eye(&self) -> Point3<f32> {
-        Point3::from(self.target) + Self::world_from_view() * Vector3::new(0.0, 0.0, self.distance)
+        Point3::from(self.target) + self.world_from_view() * Vector3::new(0.0, 0.0, self.distance)
     }
 
     /// World to clip space (x right, y up, depth 0 near to 1 far). `aspect` is width over height.
     pub fn clip_from_world(&self, aspect: f32) -> Matrix4<f32> {
-        let view_from_world = Self::world_from_view().inverse().to_homogeneous()
-            * Matrix4::new_translation(&-self.eye().coords);
+        let view_from_world =
+            self.world_from_view().inverse().to_homogeneous() * Matrix4::new_translation(&-self.eye().coords);
         let near = NEAR_FRACTION * self.distance;
         let far = FAR_FRACTION * self.distance;
         let clip_from_view = Perspective3::new(aspect, FIELD_OF_VIEW_RAD, near, far).to_homogeneous();
@@ -112,6 +119,10 @@ fn half_view_y() -> f32 {
     FIT_FRACTION * (0.5 * FIELD_OF_VIEW_RAD).tan()
 }
 
+fn world_from_view(pitch_rad: f32) -> UnitQuaternion<f32> {
+    UnitQuaternion::from_axis_angle(&Vector3::x_axis(), pitch_rad)
+}
+
 /// The distances that the three kinds of edges ask for, for a camera that looks at the origin.
 ///
 /// A point at view coordinates (x, y, z) is inside when `|x| <= t_x (d - z)` and `|y - s| <= t_y (d - z)`, with the
@@ -124,12 +135,12 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(half_size: [f32; 3], aspect: f32, max_tilt_rad: f32) -> Self {
+    fn new(pitch_rad: f32, half_size: [f32; 3], aspect: f32, max_tilt_rad: f32) -> Self {
         let half_y = half_view_y();
         let max_tilt_rad = max_tilt_rad.clamp(0.0, FRAC_PI_2);
         let corners = corners(half_size);
         let distance = |x: f32, y: f32| {
-            let edge = Edge::new(Camera::world_from_view() * Vector3::new(x, y, 1.0), max_tilt_rad);
+            let edge = Edge::new(world_from_view(pitch_rad) * Vector3::new(x, y, 1.0), max_tilt_rad);
             corners.iter().map(|corner| edge.farthest(corner)).fold(f32::MIN, f32::max)
         };
         // Board and tilts are the same mirrored in x: what holds on the right holds on the left.
@@ -193,8 +204,8 @@ impl Edge {
 /// Points (y, z) and (y', z') are equally far from the middle, on either side, when the camera is shifted by `s` with
 /// `(y - s) / (d - z) = (s - y') / (d - z')`. The upper one of many is the one that asks for most, the lower one
 /// the one that then asks for least.
-fn level_middle(half_size: [f32; 3], distance: f32) -> f32 {
-    let view_from_world = Camera::world_from_view().inverse();
+fn level_middle(pitch_rad: f32, half_size: [f32; 3], distance: f32) -> f32 {
+    let view_from_world = world_from_view(pitch_rad).inverse();
     // Seen from the side: x makes no difference to y and z.
     let points = corners(half_size).map(|corner| view_from_world * corner);
     let points = &points[..4];

@@ -84,16 +84,19 @@ fn cases() -> impl Iterator<Item = ([f32; 3], f32, f32)> {
 /// The camera moved by a part of its distance, up the screen and away.
 fn moved(camera: Camera, up: f32, away: f32) -> Camera {
     let target = Vector3::from(camera.target)
-        + Camera::world_from_view() * Vector3::new(0.0, up * camera.distance, 0.0);
-    Camera { target: target.into(), distance: (1.0 + away) * camera.distance }
+        + camera.world_from_view() * Vector3::new(0.0, up * camera.distance, 0.0);
+    Camera { target: target.into(), distance: (1.0 + away) * camera.distance, pitch_rad: PITCH_RAD }
 }
 
 #[test]
 fn the_fit_holds_every_board_and_is_tight_at_one_edge() {
     let [least, most] = FILLED;
     for (board, aspect, max_tilt_rad) in cases() {
-        let looking_at_centre =
-            Camera { target: [0.0; 3], distance: Camera::fitted_distance(board, aspect, max_tilt_rad) };
+        let looking_at_centre = Camera {
+            target: [0.0; 3],
+            distance: Camera::fitted_distance(board, aspect, max_tilt_rad),
+            pitch_rad: PITCH_RAD,
+        };
         for camera in [Camera::fitted(board, aspect, max_tilt_rad), looking_at_centre] {
             let reach = Reach::tilted(&camera, board, aspect, max_tilt_rad);
             assert!(
@@ -148,7 +151,7 @@ fn a_board_without_size_still_gives_a_usable_view() {
 
 #[test]
 fn screen_right_is_world_x_and_screen_up_is_away() {
-    let camera = Camera { target: [0.0; 3], distance: 10.0 };
+    let camera = Camera { target: [0.0; 3], distance: 10.0, pitch_rad: PITCH_RAD };
     let size = [800, 600];
     let at = |world| camera.project(size, world).unwrap();
     let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 1e-2 && (a[1] - b[1]).abs() < 1e-2;
@@ -162,11 +165,38 @@ fn screen_right_is_world_x_and_screen_up_is_away() {
 
 #[test]
 fn view_axes_turn_into_the_world() {
-    let world_from_view = Camera::world_from_view();
-    let camera = Camera { target: [0.0; 3], distance: 2.0 };
+    let camera = Camera { target: [0.0; 3], distance: 2.0, pitch_rad: PITCH_RAD };
+    let world_from_view = camera.world_from_view();
     let towards_eye = world_from_view * Vector3::z() * 2.0;
     assert!((towards_eye - camera.eye().coords).norm() < 1e-6);
     assert!((world_from_view * Vector3::x() - Vector3::x()).norm() < 1e-6);
     assert!((towards_eye.angle(&Vector3::z()) - PITCH_RAD).abs() < 1e-6);
     assert!(towards_eye.y < 0.0, "the eye is on the player's side");
+}
+
+#[test]
+fn from_above_the_board_is_in_view_at_every_tilt_and_a_level_one_in_the_middle() {
+    let half_size = [7.0, 4.5, 0.5];
+    for width in [540_u16, 900, 1620] {
+        let (aspect, size) = (f32::from(width) / 900.0, [u32::from(width), 900]);
+        let camera = Camera::fitted_at(0.0, half_size, aspect, 0.35);
+        assert!(
+            (camera.eye().xy().coords - Vector3::from(camera.target).xy()).norm() < 1.0e-5,
+            "straight above"
+        );
+        let [left, right] = [-7.0, 7.0].map(|x| camera.project(size, [x, 0.0, 0.0]).unwrap());
+        let [near, far] = [-4.5, 4.5].map(|y| camera.project(size, [0.0, y, 0.0]).unwrap());
+        assert!((left[0] + right[0] - f32::from(width)).abs() < 1.0);
+        assert!((near[1] + far[1] - 900.0).abs() < 9.0, "{near:?} {far:?}");
+        for azimuth in 0..16_u8 {
+            let azimuth_rad = f32::from(azimuth) * 0.4;
+            let axis = nalgebra::Unit::new_normalize(Vector3::new(azimuth_rad.cos(), azimuth_rad.sin(), 0.0));
+            let tilt = nalgebra::UnitQuaternion::from_axis_angle(&axis, 0.35);
+            for corner in [[7.0, 4.5], [-7.0, 4.5], [7.0, -4.5], [-7.0, -4.5]] {
+                let world = tilt * Vector3::new(corner[0], corner[1], 0.5);
+                let [x, y] = camera.project(size, world.into()).unwrap();
+                assert!((0.0..=f32::from(width)).contains(&x) && (0.0..=900.0).contains(&y), "{x}, {y}");
+            }
+        }
+    }
 }

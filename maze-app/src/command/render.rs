@@ -118,7 +118,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let pose = game.pose(1.0, None);
     let layers = arguments.show.unwrap_or_default();
     let left = ui::covered_width(layers, arguments.size.map(|side| to_points(side, 1.0)));
-    let whole = view::fitted(game.half_size(), aspect, tilt_rad, left);
+    let whole = view::fitted(maze_render::PITCH_RAD, game.half_size(), aspect, tilt_rad, left);
     let camera = zoomed(whole, arguments.zoom, pose.ball_in_world().cast());
     let mut scene = game.scene(&pose, view::beside(camera, aspect, left));
     let notes = overlay::add(layers, &game, &mut scene, arguments.size);

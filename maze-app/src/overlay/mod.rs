@@ -472,7 +472,7 @@ mod tests {
     }
 
     fn shown(game: &Session, layers: &str) -> (Scene, Notes) {
-        let camera = Camera { target: [0.0; 3], distance: 20.0 };
+        let camera = Camera { target: [0.0; 3], distance: 20.0, pitch_rad: maze_render::PITCH_RAD };
         let mut scene = game.scene(&game.pose(1.0, None), camera);
         let layers = if layers.is_empty() { Layers::default() } else { Layers::parse(layers).unwrap() };
         let notes = add(layers, game, &mut scene, [640, 360]);

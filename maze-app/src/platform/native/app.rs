@@ -338,7 +338,8 @@ impl App {
         let covered = self.game.covered_width(graphics.size_points());
         let max_tilt_rad = to_f32(self.game.rules().max_tilt_rad);
         let half_size = self.game.board.session.half_size();
-        let whole = view::fitted(half_size, graphics.aspect(), max_tilt_rad, covered.abs());
+        let whole =
+            view::fitted(self.game.pitch_rad(), half_size, graphics.aspect(), max_tilt_rad, covered.abs());
         (view::with_room(whole, below, above), covered)
     }
 

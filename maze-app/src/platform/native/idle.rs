@@ -89,7 +89,7 @@ mod tests {
         let hud = |n_ticks| Hud { n_ticks, ..Hud::of(&session, &labels, &keyboard, &notes) };
         let marker = Marker { position: [0.0; 2], radius: 1.0 };
         let scene = Scene {
-            camera: Camera { target: [0.0; 3], distance: 9.0 },
+            camera: Camera { target: [0.0; 3], distance: 9.0, pitch_rad: maze_render::PITCH_RAD },
             world_from_maze: UnitQuaternion::identity(),
             ball: BallView { position: [0.0; 3], radius: 0.3, rotation: UnitQuaternion::identity() },
             ghost: None,
