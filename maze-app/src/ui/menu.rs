@@ -32,15 +32,20 @@ fn help_key() -> Id {
     Id::unique("help of what has the focus")
 }
 
+/// Whether a column takes the whole width.
+pub(crate) fn is_narrow(screen: f32) -> bool {
+    screen < NARROW
+}
+
 /// How wide the column is on a screen of a width (points); a wide one holds pictures.
 fn column_width(screen: f32, is_wide: bool) -> f32 {
     let wanted = if is_wide { 0.5 * screen } else { COLUMN.min(0.45 * screen) };
-    if screen < NARROW { screen - 2.0 * MARGIN } else { wanted }
+    if is_narrow(screen) { screen - 2.0 * MARGIN } else { wanted }
 }
 
 /// Fraction of the width that a column covers and the board leaves free; none where it covers everything.
 pub(crate) fn covered_by_column(screen: f32, is_wide: bool) -> f32 {
-    if screen < NARROW { 0.0 } else { (column_width(screen, is_wide) + MARGIN) / screen }
+    if is_narrow(screen) { 0.0 } else { (column_width(screen, is_wide) + MARGIN) / screen }
 }
 
 /// A column on the left, or on the right, that scrolls when it is higher than the window; the board behind it is dimmed.
@@ -258,7 +263,7 @@ pub(crate) fn card(ui: &mut Ui, plan: &Plan, name: &str, width: f32) -> Response
 /// Keys and what they do, at the lower right.
 pub(crate) fn hints(ui: &Ui, hints: &[(&str, &str)]) {
     let screen = ui.ctx().content_rect();
-    if screen.width() < NARROW {
+    if is_narrow(screen.width()) {
         return;
     }
     let text = hints.iter().map(|(key, does)| format!("{key} {does}")).collect::<Vec<_>>().join("     ");
