@@ -26,9 +26,6 @@ use std::time::Duration;
 /// How long the goal is in view before the result is shown (ticks of 0.03 s).
 const TICKS_TO_RESULT: u32 = 13;
 
-/// The result with its items (points).
-const RESULT_HEIGHT: f32 = 350.0;
-
 /// Corridors across a view that follows the ball.
 const FOLLOWED: f64 = 9.0;
 
@@ -505,14 +502,6 @@ impl Game {
             false if self.settings.accessibility.left_handed => -self.screens.covered_width(size_points[0]),
             false => self.screens.covered_width(size_points[0]),
         }
-    }
-
-    /// Fractions of the height, at the lower and the upper edge, that are left to what is written. At the goal the board stays in
-    /// view: where the result takes the whole width, below it.
-    pub(crate) fn room(&self, size_points: [f32; 2]) -> [f32; 2] {
-        let [below, above] = ui::room(size_points);
-        let is_below = self.screens.top() == Screen::Result && ui::menu::is_narrow(size_points[0]);
-        [below, if is_below { RESULT_HEIGHT / size_points[1].max(1.5 * RESULT_HEIGHT) } else { above }]
     }
 
     /// Between the line of sight and straight down.

@@ -19,7 +19,7 @@ pub(crate) use result::Outcome;
 use crate::input::{Control, Key, Keyboard};
 use crate::overlay::Notes;
 use crate::settings::Settings;
-use crate::ui::menu;
+use crate::ui::menu::{self, Width};
 use egui::{Id, Ui};
 use maze_core::layout::Recipe;
 use std::path::PathBuf;
@@ -42,9 +42,12 @@ pub(crate) enum Screen {
 }
 
 impl Screen {
-    /// A wide column holds pictures.
-    fn is_wide(self) -> bool {
-        matches!(self, Self::Levels)
+    fn width(self) -> Width {
+        match self {
+            Self::Levels => Width::Wide,
+            Self::Result => Width::Half,
+            _ => Width::Usual,
+        }
     }
 }
 
@@ -204,7 +207,7 @@ impl Screens {
 
     /// Fraction of the window's width that the screen in front covers.
     pub(crate) fn covered_width(&self, width_points: f32) -> f32 {
-        if self.is_playing() { 0.0 } else { menu::covered_by_column(width_points, self.top().is_wide()) }
+        if self.is_playing() { 0.0 } else { menu::covered_by_column(width_points, self.top().width()) }
     }
 
     /// Shows the one in front, and returns what was chosen on it.
@@ -214,7 +217,7 @@ impl Screens {
             self.drawn = None;
             return None;
         }
-        let narrow_or_wide = (screen.is_wide(), settings.accessibility.left_handed);
+        let place = (screen.width(), settings.accessibility.left_handed);
         if self.drawn != Some(screen) {
             // What had it on another screen is no longer there.
             self.drawn = Some(screen);
@@ -223,7 +226,7 @@ impl Screens {
         let mut choice = None;
         // Each screen has ids of its own.
         ui.push_id(screen, |ui| {
-            menu::column(ui, title_of(screen, facts), narrow_or_wide, |ui| {
+            menu::column(ui, title_of(screen, facts), place, |ui| {
                 choice = self.items(ui, screen, facts, settings);
                 if let Some(trouble) = facts.trouble {
                     ui.add_space(6.0);

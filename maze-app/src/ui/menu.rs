@@ -33,31 +33,46 @@ fn help_key() -> Id {
 }
 
 /// Whether a column takes the whole width.
-pub(crate) fn is_narrow(screen: f32) -> bool {
+fn is_narrow(screen: f32) -> bool {
     screen < NARROW
 }
 
+/// What a column takes of the window's width.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Width {
+    Usual,
+    /// It holds pictures.
+    Wide,
+    /// The board stays in view beside it, in a narrow window too.
+    Half,
+}
+
 /// How wide the column is on a screen of a width (points); a wide one holds pictures.
-fn column_width(screen: f32, is_wide: bool) -> f32 {
-    let wanted = if is_wide { 0.5 * screen } else { COLUMN.min(0.45 * screen) };
-    if is_narrow(screen) { screen - 2.0 * MARGIN } else { wanted }
+fn column_width(screen: f32, width: Width) -> f32 {
+    match width {
+        Width::Half => COLUMN.min(0.5 * screen - MARGIN),
+        _ if is_narrow(screen) => screen - 2.0 * MARGIN,
+        Width::Wide => 0.5 * screen,
+        Width::Usual => COLUMN.min(0.45 * screen),
+    }
 }
 
 /// Fraction of the width that a column covers and the board leaves free; none where it covers everything.
-pub(crate) fn covered_by_column(screen: f32, is_wide: bool) -> f32 {
-    if is_narrow(screen) { 0.0 } else { (column_width(screen, is_wide) + MARGIN) / screen }
+pub(crate) fn covered_by_column(screen: f32, width: Width) -> f32 {
+    let is_whole = is_narrow(screen) && width != Width::Half;
+    if is_whole { 0.0 } else { (column_width(screen, width) + MARGIN) / screen }
 }
 
 /// A column on the left, or on the right, that scrolls when it is higher than the window; the board behind it is dimmed.
 pub(crate) fn column(
     ui: &mut Ui,
     title: &str,
-    (is_wide, on_the_right): (bool, bool),
+    (width, on_the_right): (Width, bool),
     add: impl FnOnce(&mut Ui),
 ) {
     let screen = ui.ctx().content_rect();
     ui.painter().rect_filled(screen, CornerRadius::ZERO, Color32::from_black_alpha(70));
-    let width = column_width(screen.width(), is_wide);
+    let width = column_width(screen.width(), width);
     let left = if on_the_right { screen.right() - MARGIN - width } else { screen.left() + MARGIN };
     let place = egui::Rect::from_min_size(
         egui::pos2(left, screen.top() + MARGIN),

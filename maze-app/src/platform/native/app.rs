@@ -352,7 +352,7 @@ impl App {
     /// Moves the view on.
     fn look_on(&mut self, elapsed: Duration) {
         let Some(graphics) = &self.graphics else { return };
-        let (whole, _) = self.whole(graphics, self.game.room(graphics.size_points()));
+        let (whole, _) = self.whole(graphics, ui::room(graphics.size_points()));
         let ball = self.pose().ball_in_world().cast();
         let (nearest, slides) = (self.game.nearest_zoom(), !self.game.settings.video.reduced_motion);
         self.game.view.update(elapsed, whole, ball, nearest, slides);
@@ -392,7 +392,7 @@ impl App {
         let pace = self.pace();
         let watch = Stopwatch::start();
         self.look_on(elapsed);
-        let Some((scene, notes)) = self.picture(self.game.room(size_points)) else { return Ok(()) };
+        let Some((scene, notes)) = self.picture(ui::room(size_points)) else { return Ok(()) };
         let game = &mut self.game;
         let notice = self.notice.as_ref().filter(|(_, since)| now.duration_since(*since) < NOTICE_TIME);
         let frames =
