@@ -59,9 +59,8 @@ fn rapier_refuses_what_our_engine_refuses() {
     assert!(rapier.place(Ball::at(Vector2::new(f64::INFINITY, 0.0))).is_err());
     assert_eq!(rapier.ball(), ball());
     let board = Board::from_rectangles(vec![WALL]).unwrap();
-    let rubbing = BallSpec { resistance: 0.1, ..BallSpec::default() };
-    assert!(
-        RapierEngine::new(&board, Walls::Cuboids, rubbing, ball(), 0.03).is_err(),
-        "it knows no resistance"
-    );
+    for resistance in [-0.1, f64::INFINITY] {
+        let spec = BallSpec { resistance, ..BallSpec::default() };
+        assert!(RapierEngine::new(&board, Walls::Cuboids, spec, ball(), 0.03).is_err(), "{resistance}");
+    }
 }
