@@ -130,7 +130,7 @@ impl Keyboard {
         })
     }
 
-    /// Takes note of what is printed on a key, for [`Keyboard::letter_of`].
+    /// Takes note of what is printed on a key, for [`Keyboard::name_of`].
     fn learn(&mut self, stroke: &Stroke) {
         if let Key::Character(letter) = &stroke.letter {
             self.is_unknown |= !self.letters.see(stroke.place, &letter.to_uppercase());
