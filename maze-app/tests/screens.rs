@@ -65,8 +65,9 @@ fn from_the_title_to_the_goal_and_a_key_that_is_bound_for_good() {
     session.xdotool(&["keydown", "Right"]);
     session.wait_for("the clock to start", |state| 0 < state.clock_ticks);
     session.xdotool(&["keyup", "Right"]);
-    session.xdotool(&["key", "r"]);
     let before = session.last().clock_ticks;
+    assert!(0 < before);
+    session.xdotool(&["key", "r"]);
     session.expect_alive("R");
     assert!(before <= session.last().clock_ticks, "R is no longer bound");
     session.xdotool(&["key", "k"]);

@@ -79,7 +79,7 @@ pub(crate) struct App {
     /// Where it was last, if anywhere.
     pub(super) cursor: Option<PhysicalPosition<f64>>,
     /// News of a moment, such as why a dropped file was not loaded, and when.
-    notice: Option<(String, Instant)>,
+    pub(super) notice: Option<(String, Instant)>,
     /// The desktop's window for choosing a file, while it is open.
     dialog: Option<Receiver<Option<PathBuf>>>,
     failure: Option<Failure>,

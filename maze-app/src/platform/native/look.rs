@@ -121,3 +121,73 @@ impl App {
         });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine_kind::EngineKind;
+    use crate::game::{Board, Role, Rules};
+    use crate::platform::native::SettingsFile;
+    use crate::screen::{Date, Screen};
+    use crate::settings::Settings;
+    use crate::setup::{Options, Setup};
+
+    /// Without a window.
+    fn app() -> App {
+        let rules = Rules {
+            engine: EngineKind::Continuous,
+            max_tilt_rad: 0.3,
+            demo: false,
+            rounds: false,
+            seed: 1,
+            today: Date::default(),
+        };
+        let source = Source::level(1).unwrap();
+        let board = Board::new(source.load().unwrap(), source, Role::Play, &rules).unwrap();
+        let setup = Setup {
+            settings: Settings::default(),
+            rules,
+            first: Screen::Playing,
+            look: Look::new(files::textures(None).unwrap(), None, QualityChoice::Auto),
+            record: None,
+            state_log: None,
+            csv: None,
+            exit_after: None,
+            unfocused: None,
+        };
+        App::new(setup, Options::default(), board, SettingsFile::none(), None).unwrap()
+    }
+
+    #[test]
+    fn a_dropped_file_brings_its_sidecar_s_textures_and_the_next_level_has_ours() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = |name: &str| directory.path().join(name);
+        let write = |name: &str, bytes: &[u8]| std::fs::write(file(name), bytes).unwrap();
+        let floor = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets/textures/floor.bmp");
+        for name in ["wall.bmp", "floor.bmp", "top.bmp"] {
+            std::fs::copy(floor, file(name)).unwrap();
+        }
+        write("maze.txt", b"#####\n#S G#\n#####\n");
+        write("maze.toml", b"textures = '.'\n");
+        let mut app = app();
+        let ours = app.look.textures.clone();
+        let drop_file = |app: &mut App| {
+            let source = app.game.board.source.of_file(file("maze.txt"));
+            app.load(source, Role::Play).unwrap();
+        };
+
+        drop_file(&mut app);
+        assert_eq!(app.notice, None);
+        assert!(app.look.textures.wall == ours.floor && app.look.textures.floor == ours.floor, "its own");
+
+        write("maze.toml", b"textures = 'nowhere'\n");
+        drop_file(&mut app);
+        assert!(app.notice.as_ref().is_some_and(|(text, _)| text.contains("nowhere")), "{:?}", app.notice);
+        assert!(app.look.textures.wall == ours.floor, "what is shown stays");
+
+        let mut source = app.game.board.source.clone();
+        let changed = source.change_level(true).unwrap();
+        app.load(source, Role::Play).unwrap();
+        assert!(changed && app.look.textures == ours, "a level has none of its own");
+    }
+}
