@@ -1,7 +1,7 @@
 //! The game and its command line. The only crate with a window, files and a clock.
 //!
-//! The game itself (session, screens, input, HUD, overlays) knows neither: what is bound to a window system, files or a clock
-//! stands in `platform` and `command`.
+//! Session, screens, input, HUD and overlays know none of them: what is bound to a window system, files or a clock stands in
+//! `platform` and `command`. `source` reaches through to the native files.
 #![forbid(unsafe_code)]
 
 mod clock;

@@ -128,7 +128,7 @@ pub enum BallKind {
     /// The report's: a point mass of restitution 0.8 that nothing slows down.
     #[default]
     Report,
-    /// A solid steel sphere that rolls, rebounds little and comes to rest: for players, who have to be able to brake.
+    /// A solid steel sphere that rolls, bounces little and comes to rest: for players, who have to be able to brake.
     Steel,
 }
 
@@ -136,12 +136,12 @@ impl BallKind {
     /// All of them.
     pub const ALL: [Self; 2] = [Self::Report, Self::Steel];
 
-    /// Rebound of [`BallKind::Steel`]. A real rolling sphere whose material has 0.8 comes back with (5 * 0.8 - 2) / 7 = 0.29 once it
+    /// Restitution of [`BallKind::Steel`]. A real rolling sphere whose material has 0.8 comes back with (5 * 0.8 - 2) / 7 = 0.29 once it
     /// rolls again; a little more looks livelier.
     pub const STEEL_RESTITUTION: f64 = 0.4;
 
-    /// Rolling resistance of [`BallKind::Steel`] (units/s²). From 1 unit/s the ball stops within 1.5 s, and a tilt of 5.3 degrees
-    /// sets it in motion. Half as much would leave a tapped ball rolling for 3 s, twice as much would need 10 degrees.
+    /// Rolling resistance of [`BallKind::Steel`] (units/s²). From 1 unit/s the ball stops after 1.54 s, and a tilt of 5.3 degrees
+    /// sets it in motion. Half as much would leave it rolling for 3 s, twice as much would need 10.7 degrees.
     pub const STEEL_RESISTANCE: f64 = 0.65;
 
     /// As in a level file.

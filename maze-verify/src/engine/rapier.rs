@@ -292,7 +292,7 @@ mod tests {
             ours.tick(Vector2::new(0.0, 0.1)).unwrap();
         }
         assert_eq!((rapier.ball().velocity, ours.ball().velocity), (Vector2::zeros(), Vector2::zeros()));
-        // rapier takes a tick's acceleration before its way: half a tick's gain in speed more each tick.
+        // rapier takes a tick's acceleration before its path: half a tick's gain in speed more each tick.
         assert!((rapier.ball().position - ours.ball().position).norm() < 0.01);
     }
 
